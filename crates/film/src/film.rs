@@ -1,0 +1,205 @@
+use crate::{Size, Window};
+
+/// How the values of a film become codes of a picture file.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Display {
+    /// The original program's rule: all values are scaled so that the largest
+    /// component of the whole frame, but at least `white`, becomes the top
+    /// code, and are then truncated. No gamma.
+    Brightest {
+        /// The value of display white, in the film's unit.
+        white: f32,
+    },
+}
+
+impl Display {
+    /// The value of display white, in the film's unit. Formats that hold
+    /// linear values store a film divided by it.
+    #[must_use]
+    pub const fn white(self) -> f32 {
+        match self {
+            Self::Brightest { white } => white,
+        }
+    }
+}
+
+/// Red, green and blue for each pixel of a window of a frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Film {
+    frame: Size,
+    window: Window,
+    display: Display,
+    pixels: Vec<[f32; 3]>,
+    frame_peak: Option<f32>,
+}
+
+/// Why a film could not be made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum FilmError {
+    /// The window reaches out of the frame, or has no pixel.
+    #[error("the window {window} (x,y,width,height) does not lie in a frame of {frame} pixels")]
+    WindowOutside {
+        /// The window asked for.
+        window: Window,
+        /// The frame it should lie in.
+        frame: Size,
+    },
+    /// The system has not enough memory for so many pixels.
+    #[error("not enough memory for {pixels} pixels ({bytes} bytes)")]
+    OutOfMemory {
+        /// How many pixels were asked for.
+        pixels: u64,
+        /// How many bytes they take.
+        bytes: u64,
+    },
+}
+
+impl Film {
+    /// A black film.
+    ///
+    /// # Errors
+    /// Where `window` does not fit in `frame`, or memory does not suffice.
+    pub fn new(frame: Size, window: Window, display: Display) -> Result<Self, FilmError> {
+        if !window.fits(frame) {
+            return Err(FilmError::WindowOutside { window, frame });
+        }
+        let count = window.pixels();
+        let out_of_memory =
+            FilmError::OutOfMemory { pixels: count, bytes: count.saturating_mul(12) };
+        let count = usize::try_from(count).map_err(|_| out_of_memory)?;
+        let mut pixels = Vec::new();
+        pixels.try_reserve_exact(count).map_err(|_| out_of_memory)?;
+        pixels.resize(count, [0.0; 3]);
+        Ok(Self { frame, window, display, pixels, frame_peak: None })
+    }
+
+    /// The size of the frame that the film is a window of.
+    #[must_use]
+    pub const fn frame(&self) -> Size {
+        self.frame
+    }
+
+    /// The window of the frame that the film holds.
+    #[must_use]
+    pub const fn window(&self) -> Window {
+        self.window
+    }
+
+    /// How its values are meant to be shown.
+    #[must_use]
+    pub const fn display(&self) -> Display {
+        self.display
+    }
+
+    /// The window's pixels, row by row from the top.
+    #[must_use]
+    pub fn pixels(&self) -> &[[f32; 3]] {
+        &self.pixels
+    }
+
+    /// The pixel at column `x` and row `y` of the frame.
+    ///
+    /// # Panics
+    /// Where that pixel is not in the window.
+    #[must_use]
+    pub fn pixel(&self, x: u32, y: u32) -> [f32; 3] {
+        self.pixels[self.row_start(x, y)]
+    }
+
+    /// Writes `values`, row by row, to the pixels of `tile` (in the frame's
+    /// coordinates).
+    ///
+    /// # Panics
+    /// Where `tile` reaches out of the film's window, or `values` has another
+    /// number of pixels.
+    pub fn put(&mut self, tile: Window, values: &[[f32; 3]]) {
+        assert_eq!(values.len() as u64, tile.pixels(), "one value for each pixel");
+        assert_eq!(tile.intersection(self.window), Some(tile), "the tile lies in the window");
+        let width = tile.width as usize;
+        for (row, y) in values.chunks_exact(width).zip(tile.y..) {
+            let start = self.row_start(tile.x, y);
+            self.pixels[start..start + width].copy_from_slice(row);
+        }
+    }
+
+    /// The largest component of the whole frame, at least 0, where it is known.
+    ///
+    /// A film of the whole frame knows it; one of a part knows it only if the
+    /// renderer has looked at the rest and said so.
+    #[must_use]
+    pub fn frame_peak(&self) -> Option<f32> {
+        self.frame_peak.or_else(|| {
+            (self.window == self.frame.window()).then(|| Self::peak(&self.pixels))
+        })
+    }
+
+    /// Says what the largest component of the whole frame is.
+    pub fn set_frame_peak(&mut self, peak: f32) {
+        self.frame_peak = Some(peak);
+    }
+
+    /// The largest component of `values`, at least 0; NaN is passed over.
+    #[must_use]
+    pub fn peak(values: &[[f32; 3]]) -> f32 {
+        values.iter().flatten().fold(0.0, |peak, &v| if v > peak { v } else { peak })
+    }
+
+    fn row_start(&self, x: u32, y: u32) -> usize {
+        let inside = Window { x, y, width: 1, height: 1 }.intersection(self.window).is_some();
+        assert!(inside, "pixel {x},{y} is outside the window {}", self.window);
+        (y - self.window.y) as usize * self.window.width as usize + (x - self.window.x) as usize
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DISPLAY: Display = Display::Brightest { white: 255.0 };
+
+    #[test]
+    fn a_crop_holds_the_same_pixels_as_the_whole() {
+        let frame = Size::new(7, 5);
+        let values: Vec<_> = (0..35_u8).map(|i| [f32::from(i), 0.0, 0.5]).collect();
+        let mut whole = Film::new(frame, frame.window(), DISPLAY).expect("fits");
+        whole.put(frame.window(), &values);
+        let window = Window { x: 2, y: 1, width: 3, height: 2 };
+        let mut crop = Film::new(frame, window, DISPLAY).expect("fits");
+        for y in 1..3 {
+            for x in 2..5 {
+                let tile = Window { x, y, width: 1, height: 1 };
+                crop.put(tile, &[whole.pixel(x, y)]);
+                assert_eq!(crop.pixel(x, y), whole.pixel(x, y));
+            }
+        }
+        assert_eq!(crop.pixels()[4], [17.0, 0.0, 0.5]);
+    }
+
+    #[test]
+    fn a_crop_does_not_know_the_peak_of_the_frame() {
+        let frame = Size::new(2, 1);
+        let mut whole = Film::new(frame, frame.window(), DISPLAY).expect("fits");
+        whole.put(frame.window(), &[[1.0, f32::NAN, 300.0], [2.0, 2.0, 2.0]]);
+        assert_eq!(whole.frame_peak(), Some(300.0));
+        let window = Window { x: 1, y: 0, width: 1, height: 1 };
+        let mut crop = Film::new(frame, window, DISPLAY).expect("fits");
+        assert_eq!(crop.frame_peak(), None);
+        crop.set_frame_peak(300.0);
+        assert_eq!(crop.frame_peak(), Some(300.0));
+    }
+
+    #[test]
+    fn impossible_films_are_refused() {
+        let frame = Size::new(10, 10);
+        let window = Window { x: 5, y: 5, width: 6, height: 1 };
+        assert_eq!(
+            Film::new(frame, window, DISPLAY).expect_err("outside").to_string(),
+            "the window 5,5,6,1 (x,y,width,height) does not lie in a frame of 10x10 pixels"
+        );
+        let huge = Size::new(u32::MAX, u32::MAX);
+        assert!(matches!(
+            Film::new(huge, huge.window(), DISPLAY),
+            Err(FilmError::OutOfMemory { .. })
+        ));
+    }
+}

@@ -1,0 +1,69 @@
+use super::naive_unit;
+use lancer_math::{Point, Ray, Vector};
+use lancer_scene::Camera;
+
+/// The original's camera: which ray belongs to which pixel.
+///
+/// The ray of pixel (x, y) goes through the pixel's top left corner, not its
+/// centre; with an odd number of columns the picture is off its axis by half a
+/// pixel.
+#[derive(Debug, Clone)]
+pub struct PinholeCamera {
+    origin: Point,
+    target: Point,
+    /// Horizontal, to the right.
+    right: Vector,
+    /// Upwards in the picture.
+    up: Vector,
+    /// The size of the image plane in scene lengths.
+    plane_width: f64,
+    plane_height: f64,
+    px_width: f64,
+    px_height: f64,
+    /// The column whose rays go straight ahead.
+    middle_column: f64,
+}
+
+/// The horizontal direction to the right of `ahead`; NaN where that is
+/// vertical.
+pub(super) fn horizontal(ahead: Vector) -> Vector {
+    naive_unit(Vector::new(ahead.y, -ahead.x, 0.0))
+}
+
+impl PinholeCamera {
+    /// The camera that the scene describes.
+    #[must_use]
+    pub fn new(camera: &Camera) -> Self {
+        let (origin, target) = (camera.origin().get(), camera.target().get());
+        let ahead = naive_unit(target - origin);
+        let right = horizontal(ahead);
+        let (px_width, px_height) = (camera.px_width.get(), camera.px_height.get());
+        let plane_width = camera.width.get();
+        Self {
+            origin,
+            target,
+            right,
+            up: right.cross(&ahead),
+            plane_width,
+            plane_height: f64::from(px_height) * plane_width / f64::from(px_width),
+            px_width: f64::from(px_width),
+            px_height: f64::from(px_height),
+            middle_column: f64::from(px_width / 2),
+        }
+    }
+
+    /// The ray of the pixel at column `x` and row `y`; row 0 is at the top.
+    #[must_use]
+    pub fn ray(&self, x: u32, y: u32) -> Ray {
+        let latitude = (self.px_height / 2.0 - f64::from(y)) * self.plane_height / self.px_height;
+        let longitude = (f64::from(x) - self.middle_column) * self.plane_width / self.px_width;
+        let through = self.target + self.up * latitude + self.right * longitude;
+        Ray::new(self.origin, naive_unit(through - self.origin))
+    }
+
+    /// Where all rays start.
+    #[must_use]
+    pub const fn origin(&self) -> Point {
+        self.origin
+    }
+}

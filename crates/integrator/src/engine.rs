@@ -1,0 +1,67 @@
+use crate::{Classic, Direct, RayCounts};
+use lancer_film::{Display, Window};
+use lancer_scene::Scene;
+
+/// Red, green and blue in the unit of the film's [`Display`].
+pub type Rgb = [f32; 3];
+
+/// A way of turning a scene into a picture.
+///
+/// An engine holds its own settings, if any. What it derives from a scene goes
+/// into the [`Tracer`] that it prepares, once for each picture.
+pub trait Engine: Sync {
+    /// The name by which users choose it.
+    fn name(&self) -> &str;
+
+    /// What the engine does, in a line for `--help`.
+    fn summary(&self) -> &str;
+
+    /// How its values are meant to be shown. By default as the original
+    /// program shows its own: 255 is white, and brighter pictures are scaled
+    /// down.
+    fn display(&self) -> Display {
+        Display::Brightest { white: 255.0 }
+    }
+
+    /// What a user should know about this scene in this engine: sentences
+    /// that say what will look wrong and what to do.
+    fn warnings(&self, scene: &Scene) -> Vec<String> {
+        let _ = scene;
+        Vec::new()
+    }
+
+    /// Makes ready to render `scene`.
+    fn prepare<'s>(&'s self, scene: &'s Scene) -> Box<dyn Tracer + 's>;
+}
+
+/// An engine made ready for one scene. It is shared by all threads.
+///
+/// The answer for a pixel must depend on the pixel alone: not on the order in
+/// which pixels are asked for, nor on the thread that asks.
+pub trait Tracer: Sync {
+    /// The colour of the pixel at column `x` and row `y` of the frame; row 0
+    /// is at the top. Adds the rays followed to `counts`.
+    fn pixel(&self, x: u32, y: u32, counts: &mut RayCounts) -> Rgb;
+
+    /// The colours of a tile, row by row; `pixels` has one place for each.
+    fn tile(&self, tile: Window, pixels: &mut [Rgb], counts: &mut RayCounts) {
+        let columns = tile.x..tile.x + tile.width;
+        let places = (tile.y..tile.y + tile.height)
+            .flat_map(|y| columns.clone().map(move |x| (x, y)));
+        for ((x, y), pixel) in places.zip(pixels) {
+            *pixel = self.pixel(x, y, counts);
+        }
+    }
+}
+
+/// The engines that are built in.
+#[must_use]
+pub fn engines() -> &'static [&'static dyn Engine] {
+    &[&Classic, &Direct]
+}
+
+/// The built-in engine of that name.
+#[must_use]
+pub fn engine_by_name(name: &str) -> Option<&'static dyn Engine> {
+    engines().iter().copied().find(|engine| engine.name() == name)
+}

@@ -1,0 +1,327 @@
+//! The original program's two engines, transcribed from their description
+//! line by line: no shortcut, no sharing with the product's engines, slow.
+//!
+//! What the product computes is compared with this bit for bit. Only the
+//! points at which `classic` has defined its own arithmetic are written the
+//! same way here: the borders of a sphere's checker, the exponential function,
+//! shadows decided without division, and where a glow ends.
+
+use lancer_math::{Point, Vector, elementary};
+use lancer_scene::{Colour, Geometry, Light, Pattern, Scene};
+
+/// Which of the original's engines, and how its glow is computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Plain {
+    /// Recursive, with glow ending where `classic` ends it.
+    Classic,
+    /// Recursive, with glow from lights at any angle below 90 degrees.
+    ClassicEndlessGlow,
+    /// Not recursive.
+    Direct,
+}
+
+struct Ball {
+    centre: Point,
+    radius: f64,
+    surface: usize,
+}
+
+struct Flat {
+    origin: Point,
+    normal: Vector,
+    surface: usize,
+}
+
+struct Surface {
+    colour: [f32; 3],
+    second: Option<[f32; 3]>,
+    gloss: f32,
+}
+
+struct Hit {
+    squared_distance: f64,
+    point: Point,
+    normal: Vector,
+    second: bool,
+    surface: usize,
+}
+
+struct World {
+    balls: Vec<Ball>,
+    flats: Vec<Flat>,
+    surfaces: Vec<Surface>,
+    lights: Vec<Light>,
+    engine: Plain,
+}
+
+fn unit(v: Vector) -> Vector {
+    v / (v.x * v.x + v.y * v.y + v.z * v.z).sqrt()
+}
+
+fn rgb(colour: Colour) -> [f32; 3] {
+    [colour.r, colour.g, colour.b].map(f32::from)
+}
+
+/// All pixels of the frame, row by row.
+#[must_use]
+pub fn render(scene: &Scene, engine: Plain) -> Vec<[f32; 3]> {
+    let world = World::new(scene, engine);
+    let camera = &scene.camera;
+    let (origin, target) = (camera.origin().get(), camera.target().get());
+    let (columns, rows) = (camera.px_width.get(), camera.px_height.get());
+    let (px_width, px_height) = (f64::from(columns), f64::from(rows));
+    let width = camera.width.get();
+    let height = px_height * width / px_width;
+    let p = unit(target - origin);
+    let n1 = unit(Vector::new(p.y, -p.x, 0.0));
+    let n2 = n1.cross(&p);
+    let mut pixels = Vec::new();
+    for y in 0..rows {
+        for x in 0..columns {
+            let lat = (px_height / 2.0 - f64::from(y)) * height / px_height;
+            let lon = (f64::from(x) - (px_width / 2.0).floor()) * width / px_width;
+            let through = target + n2 * lat + n1 * lon;
+            let direction = unit(through - origin);
+            pixels.push(match engine {
+                Plain::Direct => world.direct(origin, direction),
+                _ => world.trace(origin, direction, 1.0, 0),
+            });
+        }
+    }
+    pixels
+}
+
+impl World {
+    fn new(scene: &Scene, engine: Plain) -> Self {
+        let mut world =
+            Self { balls: vec![], flats: vec![], surfaces: vec![], lights: vec![], engine };
+        for (surface, shape) in scene.shapes.iter().enumerate() {
+            world.surfaces.push(Surface {
+                colour: rgb(shape.surface.colour),
+                second: match shape.surface.pattern {
+                    Pattern::Solid => None,
+                    Pattern::Checker(second) => Some(rgb(second)),
+                },
+                gloss: shape.surface.gloss.get(),
+            });
+            match &shape.geometry {
+                Geometry::Sphere(s) => world.balls.push(Ball {
+                    centre: s.centre.get(),
+                    radius: s.radius.get(),
+                    surface,
+                }),
+                Geometry::Plane(p) => world.flats.push(Flat {
+                    origin: p.origin.get(),
+                    normal: unit(p.normal.get()),
+                    surface,
+                }),
+                Geometry::Custom(_) => unreachable!("the original has no such shape"),
+            }
+        }
+        let is_sun = |light: &&Light| matches!(light, Light::Sun { .. });
+        world.lights.extend(scene.lights.iter().filter(is_sun));
+        world.lights.extend(scene.lights.iter().filter(|light| !is_sun(light)));
+        world
+    }
+
+    fn nearest(&self, origin: Point, direction: Vector) -> Option<Hit> {
+        let mut best: Option<Hit> = None;
+        for ball in &self.balls {
+            let pc = ball.centre - origin;
+            let b = pc.dot(&direction);
+            if b < 0.0 {
+                continue;
+            }
+            let k = ball.radius * ball.radius - (pc.norm_squared() - b * b);
+            if k < 0.0 || k.is_nan() {
+                continue;
+            }
+            let t = b - k.sqrt();
+            if best.as_ref().is_none_or(|best| t * t < best.squared_distance) {
+                let point = origin + direction * t;
+                let normal = unit(point - ball.centre);
+                best = Some(Hit {
+                    squared_distance: t * t,
+                    point,
+                    normal,
+                    second: second_on_ball(normal),
+                    surface: ball.surface,
+                });
+            }
+        }
+        for flat in &self.flats {
+            let slope = direction.dot(&flat.normal);
+            if slope >= 0.0 || slope.is_nan() {
+                continue;
+            }
+            let o_n = origin.coords.dot(&flat.normal);
+            let t = (o_n - flat.origin.coords.dot(&flat.normal)) / slope;
+            if best.as_ref().is_none_or(|best| t * t < best.squared_distance) {
+                let point = origin - direction * t;
+                best = Some(Hit {
+                    squared_distance: t * t,
+                    point,
+                    normal: flat.normal,
+                    second: second_on_flat(point - flat.origin, flat.normal),
+                    surface: flat.surface,
+                });
+            }
+        }
+        best
+    }
+
+    /// The vector to the light (a unit vector to a sun) and whether anything
+    /// is met before it.
+    fn look_at(&self, light: &Light, point: Point) -> (Vector, bool) {
+        match light {
+            Light::Sun { direction, .. } => {
+                let way = unit(-direction.get());
+                (way, self.hides(point, way, f64::INFINITY))
+            }
+            Light::Lamp { point: lamp, .. } => {
+                let way = lamp.get() - point;
+                (way, self.hides(point, way, way.norm_squared()))
+            }
+        }
+    }
+
+    fn hides(&self, point: Point, way: Vector, reach: f64) -> bool {
+        for ball in &self.balls {
+            let pc = ball.centre - point;
+            let b = pc.dot(&way);
+            let way_squared = if reach.is_finite() { reach } else { 1.0 };
+            let k = b * b - way_squared * (pc.norm_squared() - ball.radius * ball.radius);
+            if b >= 0.0 && k >= 0.0 && (b - k.sqrt()).abs() < reach {
+                return true;
+            }
+        }
+        for flat in &self.flats {
+            let slope = way.dot(&flat.normal);
+            let above =
+                point.coords.dot(&flat.normal) - flat.origin.coords.dot(&flat.normal);
+            if slope < 0.0 && (reach.is_infinite() || above.abs() < -slope) {
+                return true;
+            }
+        }
+        false
+    }
+
+    fn lit(&self, hit: &Hit) -> [f32; 3] {
+        let mut sum = 0.0_f64;
+        for light in &self.lights {
+            let (way, hidden) = self.look_at(light, hit.point);
+            let along = way.dot(&hit.normal);
+            if along >= 0.0 && !hidden {
+                sum += light.brightness().get() * (along / length_squared(light, way).sqrt());
+            }
+        }
+        let surface = &self.surfaces[hit.surface];
+        let base = match surface.second {
+            Some(second) if hit.second => second,
+            _ => surface.colour,
+        };
+        base.map(|c| c * sum as f32)
+    }
+
+    fn glow(&self, origin: Point, direction: Vector) -> f32 {
+        let mut sum = 0.0_f64;
+        for light in &self.lights {
+            let (way, hidden) = self.look_at(light, origin);
+            let along = way.dot(&direction);
+            if !(along > 0.0) || hidden {
+                continue;
+            }
+            if self.engine == Plain::Classic {
+                let brightness = light.brightness().get();
+                let mut bits = -1022;
+                while bits <= 1023 && brightness >= libm_scalbn(bits) {
+                    bits += 1;
+                }
+                let end = 1.0 - f64::from(58 + bits) * std::f64::consts::LN_2 / 100.0;
+                if along * along < end * length_squared(light, way) {
+                    continue;
+                }
+            }
+            let c_squared = along * along / (length_squared(light, way));
+            sum += light.brightness().get() * elementary::exp((c_squared - 1.0) * 100.0);
+        }
+        255.0 * sum as f32
+    }
+
+    fn trace(&self, origin: Point, direction: Vector, coeff: f32, counter: u32) -> [f32; 3] {
+        let glow = self.glow(origin, direction);
+        let Some(hit) = self.nearest(origin, direction) else { return [glow; 3] };
+        let own = self.lit(&hit).map(|c| c + glow);
+        let gloss = self.surfaces[hit.surface].gloss;
+        if gloss == 0.0 || f64::from(coeff) < 0.01 || counter > 3 {
+            return own;
+        }
+        let reflected = direction - hit.normal * (2.0 * direction.dot(&hit.normal));
+        let other = self.trace(hit.point, reflected, coeff * gloss, counter + 1);
+        [0, 1, 2].map(|i| other[i] * gloss + own[i] * (1.0 - gloss))
+    }
+
+    fn direct(&self, origin: Point, direction: Vector) -> [f32; 3] {
+        self.nearest(origin, direction).map_or([0.0; 3], |hit| self.lit(&hit))
+    }
+}
+
+/// 2 to the power `e`, for normal numbers.
+fn libm_scalbn(e: i32) -> f64 {
+    f64::from_bits(((e + 1023) as u64) << 52)
+}
+
+fn length_squared(light: &Light, way: Vector) -> f64 {
+    match light {
+        Light::Sun { .. } => 1.0,
+        Light::Lamp { .. } => way.norm_squared(),
+    }
+}
+
+fn second_on_ball(p: Vector) -> bool {
+    let s = p.z;
+    let mut lat = 0;
+    for k in 1..=3_u8 {
+        lat += i32::from(s.abs() >= lancer_math_sine(k));
+    }
+    if s < 0.0 {
+        lat += 1;
+    }
+    let c = unit(p - Vector::new(0.0, 0.0, 1.0) * s).x;
+    let mut lon = 0;
+    for k in 1..=6_u8 {
+        lon += i32::from(c <= lancer_math_cosine(k));
+    }
+    (lat + lon) % 2 != 0
+}
+
+/// The least double not below sin(k / 2).
+fn lancer_math_sine(k: u8) -> f64 {
+    [0.479_425_538_604_203, 0.841_470_984_807_896_6, 0.997_494_986_604_054_4]
+        [usize::from(k) - 1]
+}
+
+/// The largest double not above cos(k / 2).
+fn lancer_math_cosine(k: u8) -> f64 {
+    [
+        0.877_582_561_890_372_6,
+        0.540_302_305_868_139_7,
+        0.070_737_201_667_702_9,
+        -0.416_146_836_547_142_4,
+        -0.801_143_615_546_933_8,
+        -0.989_992_496_600_445_5,
+    ][usize::from(k) - 1]
+}
+
+fn second_on_flat(offset: Vector, n: Vector) -> bool {
+    let x = Vector::new(1.0, 0.0, 0.0);
+    let y = Vector::new(0.0, 1.0, 0.0);
+    let v1 = unit(if n == x || n == -x { n.cross(&y) } else { n.cross(&x) });
+    let v2 = n.cross(&v1);
+    let cell = |i: f64| {
+        // What a conversion to int gives on x86.
+        let whole = if i.abs() < 2_147_483_648.0 { i.abs() as i64 } else { -2_147_483_648 };
+        whole + i64::from(i < 0.0)
+    };
+    (cell(v1.dot(&offset)) + cell(v2.dot(&offset))) % 2 != 0
+}
