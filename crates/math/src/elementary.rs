@@ -132,5 +132,5 @@ mod tests {
         assert_eq!(hash, EXP_HASH, "0x{hash:016x}");
     }
 
-    const EXP_HASH: u64 = 0;
+    const EXP_HASH: u64 = 0xb631_228c_8225_e88a;
 }
