@@ -1,4 +1,9 @@
-//! What the tests of the whole program share.
+//! What the tests of the whole program share: golden pictures and an
+//! independent transcription of the original's engines.
 #![forbid(unsafe_code)]
 
+pub mod golden;
+pub mod html;
+pub mod paths;
 pub mod plain;
+pub mod random;

@@ -1,5 +1,6 @@
 //! From bytes to well-formed XML, or the one reason why they are not.
 
+use crate::element::shorten;
 use crate::{Diagnostic, Source};
 use roxmltree::{Document, Error, ParsingOptions};
 
@@ -77,7 +78,9 @@ fn explain(error: &Error, source: &Source) -> Diagnostic {
     let error_at = |message: &str, label: &str| {
         Diagnostic::error(char_at(at), format!("not well-formed XML: {message}"), label)
     };
-    let end = text.trim_end().len();
+    // The last character that is no white space: at the very end there is
+    // nothing to point at.
+    let last = text.trim_end().char_indices().last().map_or(0, |(i, _)| i);
     match error {
         Error::DtdDetected => {
             let at = text.find("<!DOCTYPE").unwrap_or(0);
@@ -97,24 +100,25 @@ fn explain(error: &Error, source: &Source) -> Diagnostic {
             Diagnostic::error(0..0, "the file has too many attributes", "in this file")
         }
         Error::NoRootNode => {
-            Diagnostic::error(end..end, "the file has no element", "expected <world>")
+            Diagnostic::error(char_at(last), "the file has no element", "expected <world>")
+                .help("a scene file is <world> with a <camera>, <lights> and <shapes>".to_owned())
         }
         Error::UnclosedRootNode | Error::UnexpectedEndOfStream => Diagnostic::error(
-            end..end,
+            char_at(last),
             "not well-formed XML: the file ends too early",
             "something is still open here",
         )
         .help("is a closing tag such as </world>, a quote or a `-->` missing?".to_owned()),
         Error::UnexpectedCloseTag(expected, found, _) => error_at(
-            &format!("</{found}> where </{expected}> was expected"),
+            &format!("</{}> where </{}> was expected", shorten(found), shorten(expected)),
             "this closes another element than the open one",
         ),
         Error::DuplicatedAttribute(name, _) => {
             let first = text[..at].rfind(&format!("{name}=")).filter(|&first| {
                 !text[first..at].contains('>') && text[..first].ends_with(char::is_whitespace)
             });
-            let mut diagnostic = error_at(&format!("`{name}` is given twice"), "again here")
-                .help(format!("keep one `{name}`"));
+            let mut diagnostic = error_at(&format!("`{}` is given twice", shorten(name)), "again here")
+                .help(format!("keep one `{}`", shorten(name)));
             diagnostic.span = at..(at + name.len()).min(text.len());
             match first {
                 Some(first) => diagnostic.related(first..first + name.len(), "first here"),
@@ -122,7 +126,7 @@ fn explain(error: &Error, source: &Source) -> Diagnostic {
             }
         }
         Error::UnknownEntityReference(name, _) => error_at(
-            &format!("`&{name};` is not defined"),
+            &format!("`&{};` is not defined", shorten(name)),
             "XML knows `&lt;` `&gt;` `&amp;` `&quot;` `&apos;`",
         ),
         Error::MalformedEntityReference(_) => {
@@ -136,7 +140,7 @@ fn explain(error: &Error, source: &Source) -> Diagnostic {
             "something stands before it",
         ),
         Error::UnknownNamespace(prefix, _) => {
-            error_at(&format!("the prefix `{prefix}:` is not declared"), "here")
+            error_at(&format!("the prefix `{}:` is not declared", shorten(prefix)), "here")
                 .help("names of the scene language have no prefix".to_owned())
         }
         Error::NonXmlChar(c, _) => {
@@ -151,7 +155,15 @@ fn explain(error: &Error, source: &Source) -> Diagnostic {
         Error::InvalidChar2(expected, found, _) => error_at(
             &format!("{expected} was expected"),
             &format!("found `{}`", char::from(*found).escape_default()),
-        ),
+        )
+        .help((*expected == "a whitespace").then(|| "is a quote missing before it?".to_owned())),
+        Error::UnknownToken(_) if text[..at].trim().is_empty() => {
+            Diagnostic::error(char_at(at), "the file is not XML", "expected <world>")
+                .help("a scene file is <world> with a <camera>, <lights> and <shapes>".to_owned())
+        }
+        Error::UnknownToken(_) => {
+            error_at("something stands behind the root element", "expected nothing more")
+        }
         Error::InvalidString(expected, _) => {
             error_at(&format!("`{expected}` was expected"), "here")
         }
@@ -159,7 +171,7 @@ fn explain(error: &Error, source: &Source) -> Diagnostic {
             // The parser's message ends in its own notion of the place.
             let message = other.to_string();
             let message = message.split(" at ").next().unwrap_or(&message).to_owned();
-            error_at(&message, "here")
+            error_at(&shorten(&message), "here")
         }
     }
 }

@@ -46,7 +46,11 @@ impl<'a, 'i> Reader<'a, 'i> {
             out.push(
                 Diagnostic::error(
                     self.start(),
-                    format!("<{}> is in the namespace `{namespace}`", self.element.name),
+                    format!(
+                        "<{}> is in the namespace `{}`",
+                        self.element.name,
+                        shorten(namespace)
+                    ),
                     "expected no namespace",
                 )
                 .help("remove `xmlns` and prefixes: the scene language has none".to_owned()),
@@ -56,39 +60,48 @@ impl<'a, 'i> Reader<'a, 'i> {
 
     fn check_attributes(&self, out: &mut Vec<Diagnostic>) {
         let names = self.element.attributes.iter().map(|attribute| attribute.name);
+        let missing = self.element.attributes.iter().filter(|attribute| {
+            attribute.required && self.node.attribute(attribute.name).is_none()
+        });
+        let mut missing: Vec<_> = missing.collect();
         for attribute in self.node.attributes() {
             let known = attribute.namespace().is_none()
                 && names.clone().any(|name| name == attribute.name());
-            if !known {
-                let what = format!("<{}> has", self.element.name);
-                out.push(
-                    Diagnostic::error(
-                        attribute.range_qname(),
-                        format!(
-                            "unknown attribute `{}` of <{}>",
-                            shorten(attribute.name()),
-                            self.element.name
-                        ),
-                        match self.element.attributes {
-                            [] => "expected no attribute here",
-                            _ => "not an attribute of this element",
-                        },
-                    )
-                    .help(suggest::help(attribute.name(), names.clone(), &what)),
-                );
+            if known {
+                continue;
             }
-        }
-        for attribute in self.element.attributes.iter().filter(|attribute| attribute.required) {
-            if self.node.attribute(attribute.name).is_none() {
-                out.push(Diagnostic::error(
-                    self.start(),
-                    format!("<{}> lacks the attribute `{}`", self.element.name, attribute.name),
+            // What looks like a missing attribute is that one, misspelt.
+            let meant = suggest::nearest(attribute.name(), missing.iter().map(|a| a.name));
+            missing.retain(|attribute| Some(attribute.name) != meant);
+            let what = format!("<{}> has", self.element.name);
+            out.push(
+                Diagnostic::error(
+                    attribute.range_qname(),
                     format!(
-                        "expected `{}=\"...\"`, a {}: {}",
-                        attribute.name, attribute.values, attribute.meaning
+                        "unknown attribute `{}` of <{}>",
+                        shorten(attribute.name()),
+                        self.element.name
                     ),
-                ));
-            }
+                    match self.element.attributes {
+                        [] => "expected no attribute here",
+                        _ => "not an attribute of this element",
+                    },
+                )
+                .help(match meant {
+                    Some(name) => Some(format!("did you mean `{name}`?")),
+                    None => suggest::help(attribute.name(), names.clone(), &what),
+                }),
+            );
+        }
+        for attribute in missing {
+            out.push(Diagnostic::error(
+                self.start(),
+                format!("<{}> lacks the attribute `{}`", self.element.name, attribute.name),
+                format!(
+                    "expected `{}=\"...\"`, a {}: {}",
+                    attribute.name, attribute.values, attribute.meaning
+                ),
+            ));
         }
     }
 
@@ -145,7 +158,7 @@ impl<'a, 'i> Reader<'a, 'i> {
             Some(format!("<{name}> belongs inside {}", elsewhere.join(" or ")))
         };
         let (kind, label) = match (elsewhere.is_empty(), self.element.children) {
-            (false, _) => ("misplaced", "not inside this element"),
+            (false, _) => ("misplaced", "does not belong here"),
             (true, []) => ("unknown", "expected no element here"),
             (true, _) => ("unknown", "not an element of the scene language"),
         };
@@ -283,12 +296,16 @@ fn expected_child(child: &Child) -> String {
     format!("expected <{}{attributes}{close}>{meaning}", child.element.name)
 }
 
-/// A text that is short enough for a message.
+/// A text that is short enough for a message, without control characters.
 pub(crate) fn shorten(text: &str) -> String {
     const MOST: usize = 40;
-    if text.chars().count() <= MOST {
-        text.to_owned()
-    } else {
-        format!("{}...", text.chars().take(MOST).collect::<String>())
+    let mut short: String = text
+        .chars()
+        .take(MOST)
+        .map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c })
+        .collect();
+    if text.chars().nth(MOST).is_some() {
+        short.push_str("...");
     }
+    short
 }

@@ -21,12 +21,11 @@
 //!     messages,
 //!     [
 //!         "unknown attribute `glos` of <sphere>",
-//!         "<sphere> lacks the attribute `gloss`",
 //!         "`size` of <sphere> is -1",
 //!     ]
 //! );
 //! assert_eq!(parsed.diagnostics[0].help.as_deref(), Some("did you mean `gloss`?"));
-//! assert_eq!(parsed.source.location(parsed.diagnostics[2].span.start), (7, 41));
+//! assert_eq!(parsed.source.location(parsed.diagnostics[1].span.start), (7, 42));
 //! assert!(parsed.scene.is_none());
 //!
 //! let mended = text.replace("glos=", "gloss=").replace("-1", "1");

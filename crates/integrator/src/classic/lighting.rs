@@ -124,8 +124,10 @@ impl Lighting {
     /// How brightly the lights seen from its origin glow along a ray.
     pub(super) fn glow(&self, seen: &Seen, ray: &Vector) -> f32 {
         let groups = self.groups.iter().zip(&seen.groups);
-        groups.map(|(group, (ways, visible))| group.glow(&group.glows(ways, ray), *visible)).sum::<f64>()
-            as f32
+        // Not `sum`, which begins with -0.
+        groups.fold(0.0, |sum, (group, (ways, visible))| {
+            sum + group.glow(&group.glows(ways, ray), *visible)
+        }) as f32
     }
 }
 

@@ -1,0 +1,253 @@
+//! The command line: what may be written, and what it means.
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Args, Parser, Subcommand};
+use lancer_film::{Size, Window};
+use lancer_integrator::{Engine, engine_by_name, engines};
+use lancer_output::{Bits, Format};
+use std::ffi::OsStr;
+use std::fmt;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+const EXIT_CODES: &str = "\
+Exit codes:
+  0  done
+  1  the scene or the work failed, or the pictures differ
+  2  wrong usage";
+
+/// Lancer, a ray tracer: text scene in, picture out.
+#[derive(Debug, Parser)]
+#[command(name = "lancer", version, after_help = EXIT_CODES, arg_required_else_help = true)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Render a scene to a picture
+    #[command(after_help = EXIT_CODES)]
+    Render(RenderArgs),
+    /// Report all that is wrong with scenes, without rendering
+    #[command(after_help = EXIT_CODES)]
+    Check(CheckArgs),
+    /// Compare two pictures pixel by pixel
+    #[command(after_help = EXIT_CODES)]
+    Compare(CompareArgs),
+}
+
+/// What to render, how, and where to.
+#[derive(Debug, Args)]
+pub struct RenderArgs {
+    /// The scene file; `-` is standard input
+    pub scene: PathBuf,
+
+    /// The picture file; `-` is standard output, with nothing else on it
+    #[arg(short, long, value_name = "OUT", required_unless_present = "preview")]
+    pub output: Option<PathBuf>,
+
+    /// The picture's format; else the file name's extension says it (PPM on standard output)
+    #[arg(long, value_name = "FORMAT", value_parser = format_parser())]
+    pub format: Option<Format>,
+
+    /// How many bits each component has, in formats that leave the choice (png, tiff)
+    #[arg(long, value_name = "BITS", default_value = "8", value_parser = bits_parser())]
+    pub bits: Bits,
+
+    #[arg(long, default_value = "classic", value_parser = engine_parser(), help = engine_help())]
+    #[allow(missing_docs, reason = "the doc comment would replace the computed help")]
+    pub engine: EngineName,
+
+    /// Make the picture so many pixels large, whatever the scene says
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub size: Option<Size>,
+
+    /// Keep only this part of the picture: column and row of its corner, width and height
+    #[arg(long, value_name = "X,Y,W,H", value_parser = parse_crop)]
+    pub crop: Option<Window>,
+
+    /// How many threads to use; one for each core by default. The picture is the same
+    #[arg(long, value_name = "N", value_parser = parse_threads)]
+    pub threads: Option<NonZeroUsize>,
+
+    /// Write times, counts of rays and settings to a JSON file
+    #[arg(long, value_name = "FILE")]
+    pub stats: Option<PathBuf>,
+
+    /// Show the picture in the terminal
+    #[arg(long)]
+    pub preview: bool,
+
+    /// Say nothing but errors
+    #[arg(short, long)]
+    pub quiet: bool,
+
+    /// Refuse pictures of more pixels
+    #[arg(long, value_name = "N", default_value_t = lancer_xml::MAX_PIXELS)]
+    pub max_pixels: u64,
+}
+
+/// What to check.
+#[derive(Debug, Args)]
+pub struct CheckArgs {
+    /// The scene files; `-` is standard input
+    #[arg(required = true, value_name = "SCENE")]
+    pub scenes: Vec<PathBuf>,
+
+    /// Say nothing but warnings and errors
+    #[arg(short, long)]
+    pub quiet: bool,
+
+    /// Refuse pictures of more pixels
+    #[arg(long, value_name = "N", default_value_t = lancer_xml::MAX_PIXELS)]
+    pub max_pixels: u64,
+}
+
+/// What to compare.
+#[derive(Debug, Args)]
+pub struct CompareArgs {
+    /// The first picture
+    pub a: PathBuf,
+
+    /// The second picture
+    pub b: PathBuf,
+
+    /// The largest difference to accept in any component, in levels of 255
+    #[arg(long, value_name = "N", default_value = "0", value_parser = parse_levels)]
+    pub max_diff: f64,
+
+    /// Write a picture of the differences: the brighter the red, the larger
+    #[arg(long, value_name = "OUT")]
+    pub diff: Option<PathBuf>,
+
+    /// Print the result as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// The name of a built-in engine.
+#[derive(Clone, Copy)]
+pub struct EngineName(&'static dyn Engine);
+
+impl EngineName {
+    /// The engine itself.
+    #[must_use]
+    pub fn engine(self) -> &'static dyn Engine {
+        self.0
+    }
+
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.0.name()
+    }
+}
+
+impl fmt::Debug for EngineName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.0.name())
+    }
+}
+
+fn engine_parser() -> impl TypedValueParser<Value = EngineName> {
+    PossibleValuesParser::new(engines().iter().map(|engine| engine.name()))
+        .try_map(|name| engine_by_name(&name).map(EngineName).ok_or("no such engine"))
+}
+
+fn engine_help() -> String {
+    let engines = engines().iter().map(|e| format!("{}, {}", e.name(), e.summary()));
+    format!("The engine: {}", engines.collect::<Vec<_>>().join("; "))
+}
+
+fn format_parser() -> impl TypedValueParser<Value = Format> {
+    PossibleValuesParser::new(Format::ALL.iter().map(|(format, _)| format.name()))
+        .try_map(|name| Format::from_name(&name).ok_or("no such format"))
+}
+
+fn bits_parser() -> impl TypedValueParser<Value = Bits> {
+    PossibleValuesParser::new(["8", "16"])
+        .map(|bits| if bits == "16" { Bits::Sixteen } else { Bits::Eight })
+}
+
+/// Numbers of pixels along a side that picture formats can count.
+fn side(text: &str) -> Option<u32> {
+    text.parse().ok().filter(|side| (1..=i32::MAX as u32).contains(side))
+}
+
+fn parse_size(text: &str) -> Result<Size, String> {
+    text.split_once(['x', 'X'])
+        .and_then(|(width, height)| Some(Size::new(side(width)?, side(height)?)))
+        .ok_or_else(|| "expected a width and a height in pixels, such as 400x300".to_owned())
+}
+
+fn parse_crop(text: &str) -> Result<Window, String> {
+    let parts: Vec<&str> = text.split(',').collect();
+    let window = match parts[..] {
+        [x, y, width, height] => x.parse().ok().zip(y.parse().ok()).and_then(|(x, y)| {
+            Some(Window { x, y, width: side(width)?, height: side(height)? })
+        }),
+        _ => None,
+    };
+    window.ok_or_else(|| {
+        "expected column, row, width and height in pixels, such as 100,50,64,48".to_owned()
+    })
+}
+
+/// More threads than this are surely a slip.
+const MOST_THREADS: usize = 1024;
+
+fn parse_threads(text: &str) -> Result<NonZeroUsize, String> {
+    text.parse::<NonZeroUsize>()
+        .ok()
+        .filter(|threads| threads.get() <= MOST_THREADS)
+        .ok_or_else(|| format!("expected a whole number from 1 to {MOST_THREADS}"))
+}
+
+fn parse_levels(text: &str) -> Result<f64, String> {
+    text.parse::<f64>()
+        .ok()
+        .filter(|levels| *levels >= 0.0)
+        .ok_or_else(|| "expected a number of at least 0".to_owned())
+}
+
+/// Whether a path means standard input or output.
+#[must_use]
+pub fn is_standard(path: &std::path::Path) -> bool {
+    path.as_os_str() == OsStr::new("-")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_arguments_are_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn sizes_crops_and_counts_are_read_or_refused() {
+        assert_eq!(parse_size("400x300"), Ok(Size::new(400, 300)));
+        for bad in ["", "400", "400x", "x300", "0x3", "-4x3", "4x3x2", "4294967296x1", "4.0x3"] {
+            assert!(parse_size(bad).is_err(), "{bad}");
+        }
+        assert_eq!(parse_crop("1,2,3,4"), Ok(Window { x: 1, y: 2, width: 3, height: 4 }));
+        for bad in ["", "1,2,3", "1,2,3,4,5", "1,2,0,4", "-1,2,3,4", "1, 2,3,4", "a,b,c,d"] {
+            assert!(parse_crop(bad).is_err(), "{bad}");
+        }
+        assert!(parse_threads("0").is_err() && parse_threads("100000").is_err());
+        assert!(parse_levels("-1").is_err() && parse_levels("NaN").is_err());
+        assert_eq!(parse_levels("0.5"), Ok(0.5));
+    }
+
+    #[test]
+    fn a_render_needs_somewhere_to_go() {
+        assert!(Cli::try_parse_from(["lancer", "render", "a.xml"]).is_err());
+        assert!(Cli::try_parse_from(["lancer", "render", "a.xml", "--preview"]).is_ok());
+        assert!(Cli::try_parse_from(["lancer", "render", "-", "-o", "-"]).is_ok());
+    }
+}

@@ -1,0 +1,42 @@
+//! `lancer check`
+
+use crate::args::CheckArgs;
+use crate::report::{self, Tally, count};
+use crate::{Failure, files, print_line};
+use lancer_xml::Options;
+
+pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
+    let options = Options { max_pixels: Some(args.max_pixels) };
+    let mut failed = false;
+    for path in &args.scenes {
+        // One file that cannot be read does not keep the others from being read.
+        let (name, bytes) = match files::read(path) {
+            Ok(read) => read,
+            Err(failure) => {
+                report::say(format_args!("error: {failure}"));
+                failed = true;
+                continue;
+            }
+        };
+        let parsed = lancer_xml::parse(&bytes, &options);
+        let tally = report::show(&name, &parsed, false);
+        failed |= tally.errors > 0;
+        if args.quiet {
+            continue;
+        }
+        match &parsed.scene {
+            None => report::say(format_args!("{name}: {tally}")),
+            Some(scene) => {
+                let and = if tally == Tally::default() { String::new() } else { format!("; {tally}") };
+                print_line(&format!(
+                    "{name}: valid, {}x{} pixels, {}, {}{and}",
+                    scene.camera.px_width.get(),
+                    scene.camera.px_height.get(),
+                    count(scene.lights.len(), "light"),
+                    count(scene.shapes.len(), "shape"),
+                ))?;
+            }
+        }
+    }
+    if failed { Err(Failure::Told) } else { Ok(()) }
+}

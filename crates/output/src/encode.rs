@@ -1,0 +1,154 @@
+use crate::display::{PeakUnknown, codes8, codes16, linear};
+use crate::{Bits, Format};
+use image::codecs::{
+    bmp::BmpEncoder,
+    jpeg::JpegEncoder,
+    openexr::OpenExrEncoder,
+    png::PngEncoder,
+    pnm::{PnmEncoder, PnmSubtype, SampleEncoding},
+    qoi::QoiEncoder,
+    tga::TgaEncoder,
+    tiff::TiffEncoder,
+    webp::WebPEncoder,
+};
+use image::{ExtendedColorType, ImageEncoder};
+use lancer_film::Film;
+use std::io::Cursor;
+
+/// Why a film could not become a file.
+#[derive(Debug, thiserror::Error)]
+pub enum EncodeError {
+    /// The film does not know enough of its frame.
+    #[error(transparent)]
+    Peak(#[from] PeakUnknown),
+    /// The format has no such number of bits.
+    #[error("the format {} has 8 bits for each component, not 16", .0.name())]
+    Bits(Format),
+    /// The encoder refused, because the picture is too large for the format or
+    /// memory does not suffice.
+    #[error("cannot write this picture as {}: {reason}", .format.name())]
+    Encoder {
+        /// The format.
+        format: Format,
+        /// What its encoder said.
+        reason: image::ImageError,
+    },
+}
+
+/// How good JPEG pictures are, out of 100.
+const JPEG_QUALITY: u8 = 95;
+
+/// The bytes of a picture file. `bits` means nothing for linear formats.
+///
+/// # Errors
+/// Where the format cannot hold the picture.
+pub fn encode(film: &Film, format: Format, bits: Bits) -> Result<Vec<u8>, EncodeError> {
+    let size = (film.window().width, film.window().height);
+    if format.is_linear() {
+        let bytes: Vec<u8> = linear(film).into_iter().flat_map(f32::to_ne_bytes).collect();
+        return write(format, &bytes, size, ExtendedColorType::Rgb32F);
+    }
+    match bits {
+        Bits::Eight => write(format, &codes8(film)?, size, ExtendedColorType::Rgb8),
+        Bits::Sixteen if format.has_16_bits() => {
+            let bytes: Vec<u8> = codes16(film)?.into_iter().flat_map(u16::to_ne_bytes).collect();
+            write(format, &bytes, size, ExtendedColorType::Rgb16)
+        }
+        Bits::Sixteen => Err(EncodeError::Bits(format)),
+    }
+}
+
+/// The bytes of a picture file from a picture of 8 bits.
+///
+/// # Errors
+/// Where the format cannot hold the picture.
+pub fn encode_rgb8(image: &image::RgbImage, format: Format) -> Result<Vec<u8>, EncodeError> {
+    write(format, image, image.dimensions(), ExtendedColorType::Rgb8)
+}
+
+fn write(
+    format: Format,
+    samples: &[u8],
+    (width, height): (u32, u32),
+    kind: ExtendedColorType,
+) -> Result<Vec<u8>, EncodeError> {
+    let mut file = Cursor::new(Vec::new());
+    let out = &mut file;
+    let result = match format {
+        Format::Ppm => PnmEncoder::new(out)
+            .with_subtype(PnmSubtype::Pixmap(SampleEncoding::Binary))
+            .write_image(samples, width, height, kind),
+        Format::Png => PngEncoder::new(out).write_image(samples, width, height, kind),
+        Format::Exr => OpenExrEncoder::new(out).write_image(samples, width, height, kind),
+        Format::Bmp => BmpEncoder::new(out).write_image(samples, width, height, kind),
+        Format::Jpeg => JpegEncoder::new_with_quality(out, JPEG_QUALITY)
+            .write_image(samples, width, height, kind),
+        Format::Qoi => QoiEncoder::new(out).write_image(samples, width, height, kind),
+        Format::Tga => TgaEncoder::new(out).write_image(samples, width, height, kind),
+        Format::Tiff => TiffEncoder::new(out).write_image(samples, width, height, kind),
+        Format::Webp => WebPEncoder::new_lossless(out).write_image(samples, width, height, kind),
+    };
+    result.map_err(|reason| EncodeError::Encoder { format, reason })?;
+    Ok(file.into_inner())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{compare, decode};
+    use lancer_film::{Display, Size};
+
+    fn film() -> Film {
+        let frame = Size::new(5, 3);
+        let mut film = Film::new(frame, frame.window(), Display::Brightest { white: 255.0 })
+            .expect("it fits");
+        let values: Vec<_> =
+            (0..15_u8).map(|i| [f32::from(i) * 17.3, 255.0 - f32::from(i), 0.25]).collect();
+        film.put(frame.window(), &values);
+        film
+    }
+
+    #[test]
+    fn lossless_formats_hold_the_same_codes() {
+        let reference = decode(&encode(&film(), Format::Ppm, Bits::Eight).expect("it encodes"));
+        let reference = reference.expect("it decodes");
+        for (format, _) in Format::ALL {
+            if format.is_linear() || *format == Format::Jpeg {
+                continue;
+            }
+            let bytes = encode(&film(), *format, Bits::Eight).expect("it encodes");
+            let picture = decode(&bytes).expect("it decodes");
+            let comparison = compare(&reference, &picture).expect("same size");
+            assert_eq!(comparison.differing, 0, "{format:?}");
+        }
+    }
+
+    #[test]
+    fn sixteen_bits_are_kept_or_refused() {
+        let reference = encode(&film(), Format::Png, Bits::Sixteen).expect("it encodes");
+        let reference = decode(&reference).expect("it decodes");
+        for (index, value) in film().pixels().iter().enumerate() {
+            let codes = value.map(|v| f64::from((v * 257.0) as u16) / 257.0);
+            assert_eq!(reference.levels(index)[..3], codes);
+        }
+        for (format, _) in Format::ALL.iter().filter(|(format, _)| !format.is_linear()) {
+            match encode(&film(), *format, Bits::Sixteen) {
+                Ok(bytes) => {
+                    let picture = decode(&bytes).expect("it decodes");
+                    let comparison = compare(&reference, &picture).expect("same size");
+                    assert_eq!(comparison.differing, 0, "{format:?}");
+                }
+                Err(error) => assert!(matches!(error, EncodeError::Bits(_)), "{error}"),
+            }
+        }
+    }
+
+    #[test]
+    fn exr_holds_linear_values_with_white_at_one() {
+        let bytes = encode(&film(), Format::Exr, Bits::Eight).expect("it encodes");
+        let image = image::load_from_memory(&bytes).expect("it decodes").into_rgb32f();
+        for (pixel, value) in image.pixels().zip(film().pixels()) {
+            assert_eq!(pixel.0, value.map(|v| v / 255.0));
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! Random scenes, one for each seed.
+
+use fastrand::Rng;
+use lancer_scene::{Camera, Colour, InvalidField, Light, Scene, Shape, Surface};
+
+/// A scene of up to nine spheres, six planes and seven lights, some of them in
+/// awkward places: planes through lamps, lamps behind planes, eyes inside
+/// spheres, perfect mirrors, very bright and very dim lights.
+///
+/// # Panics
+/// Never: the values are in range.
+#[must_use]
+pub fn scene(seed: u64, pixels: [u32; 2]) -> Scene {
+    let mut rng = Rng::with_seed(seed);
+    let rng = &mut rng;
+    let eye = point(rng, 4.0);
+    let mut builder =
+        Scene::builder().camera(Camera::new(eye, point(rng, 3.0), 0.5 + 3.0 * rng.f64(), pixels));
+    let mut lamps = Vec::new();
+    for _ in 0..rng.usize(0..8) {
+        let brightness = match rng.u8(0..8) {
+            0 => 0.0,
+            1 => 1e-12,
+            2 => 1e6,
+            _ => 2.0 * rng.f64(),
+        };
+        builder = builder.light(if rng.u8(0..4) == 0 {
+            Light::sun(point(rng, 1.0), brightness)
+        } else {
+            lamps.push(point(rng, 6.0));
+            Light::lamp(lamps[lamps.len() - 1], brightness)
+        });
+    }
+    for _ in 0..rng.usize(0..10) {
+        let centre = if rng.u8(0..12) == 0 { eye } else { point(rng, 5.0) };
+        builder = builder.shape(sphere(rng, centre));
+    }
+    for _ in 0..rng.usize(0..7) {
+        let origin = match lamps.first() {
+            Some(lamp) if rng.u8(0..6) == 0 => *lamp,
+            _ => point(rng, 8.0),
+        };
+        let normal = match rng.u8(0..6) {
+            0 => [1.0, 0.0, 0.0],
+            1 => [-2.0, 0.0, 0.0],
+            2 => [0.0, 0.0, 1.0],
+            _ => point(rng, 1.0),
+        };
+        builder = builder.shape(Shape::plane(origin, normal, surface(rng)));
+    }
+    builder.build().expect("all values are in range")
+}
+
+fn sphere(rng: &mut Rng, centre: [f64; 3]) -> Result<Shape, InvalidField> {
+    Shape::sphere(centre, 0.1 + 2.0 * rng.f64(), surface(rng))
+}
+
+fn surface(rng: &mut Rng) -> Surface {
+    let (_, colour) = Colour::NAMED[rng.usize(0..Colour::NAMED.len())];
+    let surface = Surface::new(colour);
+    let surface = match rng.u8(0..3) {
+        0 => surface.checker(colour.complement()),
+        _ => surface,
+    };
+    let gloss = match rng.u8(0..4) {
+        0 => 0.0,
+        1 => 1.0,
+        _ => rng.f64(),
+    };
+    surface.gloss(gloss).expect("it is from 0 to 1")
+}
+
+fn point(rng: &mut Rng, size: f64) -> [f64; 3] {
+    std::array::from_fn(|_| size * (2.0 * rng.f64() - 1.0))
+}

@@ -1,0 +1,68 @@
+//! Chores of the repository: `cargo xtask --help`.
+#![forbid(unsafe_code)]
+
+mod docs;
+mod goldens;
+mod tidy;
+mod time;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+#[derive(Debug, Parser)]
+#[command(name = "cargo xtask", about = "Chores of the repository")]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Render golden pictures anew and say what changed by how much
+    RegenGoldens {
+        /// The goldens to render: NAME.ENGINE, or NAME for all of a scene; all if none is named
+        names: Vec<String>,
+    },
+    /// Write docs/format.md, the reference of the scene language, from the tables in the code
+    Docs {
+        /// Only say whether it is up to date
+        #[arg(long)]
+        check: bool,
+    },
+    /// Check what no compiler checks: dependency arrows, lints, file sizes, the README's commands
+    Tidy,
+    /// Time the engine on the README's scene and compare it with a plain transcription
+    Time {
+        /// How often to render
+        #[arg(long, default_value_t = 7)]
+        runs: usize,
+        /// How many threads to use
+        #[arg(long, default_value_t = 2)]
+        threads: usize,
+    },
+}
+
+/// Why a chore was not done.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+struct Failure(String);
+
+fn fail(reason: impl std::fmt::Display) -> Failure {
+    Failure(reason.to_string())
+}
+
+fn main() -> ExitCode {
+    let result = match Cli::parse().command {
+        Command::RegenGoldens { names } => goldens::regenerate(&names),
+        Command::Docs { check } => docs::format_reference(check),
+        Command::Tidy => tidy::run(),
+        Command::Time { runs, threads } => time::run(runs, threads),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("error: {failure}");
+            ExitCode::FAILURE
+        }
+    }
+}
