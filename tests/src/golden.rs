@@ -138,9 +138,8 @@ impl Golden {
     pub fn scene(&self) -> Result<Scene, Problem> {
         let bytes = fs::read(&self.scene).map_err(problem)?;
         let parsed = lancer_xml::parse(&bytes, &lancer_xml::Options::default());
-        let mut scene = parsed
-            .into_result()
-            .map_err(|e| problem(format!("{}: {e}", self.scene.display())))?;
+        let mut scene =
+            parsed.into_result().map_err(|e| problem(format!("{}: {e}", self.scene.display())))?;
         if let Some([width, height]) = self.settings.size {
             scene.camera.px_width = PixelCount::new(width).map_err(problem)?;
             scene.camera.px_height = PixelCount::new(height).map_err(problem)?;

@@ -197,8 +197,7 @@ impl World {
         }
         for flat in &self.flats {
             let slope = way.dot(&flat.normal);
-            let above =
-                point.coords.dot(&flat.normal) - flat.origin.coords.dot(&flat.normal);
+            let above = point.coords.dot(&flat.normal) - flat.origin.coords.dot(&flat.normal);
             if slope < 0.0 && (reach.is_infinite() || above.abs() < -slope) {
                 return true;
             }
@@ -228,7 +227,7 @@ impl World {
         for light in &self.lights {
             let (way, hidden) = self.look_at(light, origin);
             let along = way.dot(&direction);
-            if !(along > 0.0) || hidden {
+            if along <= 0.0 || along.is_nan() || hidden {
                 continue;
             }
             if self.engine == Plain::Classic {
@@ -297,8 +296,7 @@ fn second_on_ball(p: Vector) -> bool {
 
 /// The least double not below sin(k / 2).
 fn lancer_math_sine(k: u8) -> f64 {
-    [0.479_425_538_604_203, 0.841_470_984_807_896_6, 0.997_494_986_604_054_4]
-        [usize::from(k) - 1]
+    [0.479_425_538_604_203, 0.841_470_984_807_896_6, 0.997_494_986_604_054_4][usize::from(k) - 1]
 }
 
 /// The largest double not above cos(k / 2).

@@ -52,7 +52,8 @@ fn the_shortcuts_change_no_bit_of_the_scenes() {
         // The plain transcription is slow.
         scene.camera.px_width = PixelCount::new(160).expect("positive");
         scene.camera.px_height = PixelCount::new(120).expect("positive");
-        for (engine, plain) in [(&Classic as &dyn Engine, Plain::Classic), (&Direct, Plain::Direct)] {
+        for (engine, plain) in [(&Classic as &dyn Engine, Plain::Classic), (&Direct, Plain::Direct)]
+        {
             let film = rendered(&scene, engine, &RenderSettings::default()).film;
             let expected = plain::render(&scene, plain);
             assert_eq!(first_difference(film.pixels(), &expected), None, "{}", golden.name);
@@ -64,7 +65,8 @@ fn the_shortcuts_change_no_bit_of_the_scenes() {
 fn the_shortcuts_change_no_bit_of_random_scenes() {
     for seed in 0..1_500 {
         let scene = random::scene(seed, [24, 18]);
-        for (engine, plain) in [(&Classic as &dyn Engine, Plain::Classic), (&Direct, Plain::Direct)] {
+        for (engine, plain) in [(&Classic as &dyn Engine, Plain::Classic), (&Direct, Plain::Direct)]
+        {
             let film = rendered(&scene, engine, &RenderSettings::default()).film;
             let expected = plain::render(&scene, plain);
             let difference = first_difference(film.pixels(), &expected);

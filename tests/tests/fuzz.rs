@@ -8,10 +8,46 @@ const CASES: u64 = 20_000;
 
 /// Pieces that a mutation may insert.
 const PIECES: &[&str] = &[
-    "<", ">", "/>", "</", "\"", "'", "&", "&lt;", "&#0;", "&#x1F600;", "<!--", "-->", "<![CDATA[",
-    "]]>", "<?x?>", "<!DOCTYPE a>", "<sphere>", "</sphere>", "<point x=\"1\"", "xmlns:a=\"b\"",
-    "a:b", "x=\"1\"", "gloss=\"", "1e999", "-1e-999", "nan", "\u{1f600}", "\u{2212}", "\u{feff}",
-    "\t", "\r\n", "\n", "\0", "\u{1b}[31m", "\u{85}", "\u{202e}", "e\u{301}", "=", " ", "99999999999",
+    "<",
+    ">",
+    "/>",
+    "</",
+    "\"",
+    "'",
+    "&",
+    "&lt;",
+    "&#0;",
+    "&#x1F600;",
+    "<!--",
+    "-->",
+    "<![CDATA[",
+    "]]>",
+    "<?x?>",
+    "<!DOCTYPE a>",
+    "<sphere>",
+    "</sphere>",
+    "<point x=\"1\"",
+    "xmlns:a=\"b\"",
+    "a:b",
+    "x=\"1\"",
+    "gloss=\"",
+    "1e999",
+    "-1e-999",
+    "nan",
+    "\u{1f600}",
+    "\u{2212}",
+    "\u{feff}",
+    "\t",
+    "\r\n",
+    "\n",
+    "\0",
+    "\u{1b}[31m",
+    "\u{85}",
+    "\u{202e}",
+    "e\u{301}",
+    "=",
+    " ",
+    "99999999999",
 ];
 
 fn mutate(rng: &mut Rng, bytes: &mut Vec<u8>) {
@@ -63,6 +99,16 @@ fn mutate(rng: &mut Rng, bytes: &mut Vec<u8>) {
 fn case(seeds: &[Vec<u8>], number: u64) -> Vec<u8> {
     let mut rng = Rng::with_seed(number);
     let mut bytes = seeds[rng.usize(0..seeds.len())].clone();
+    if rng.u8(0..4) == 0 {
+        // Gently: what the XML parser does not mind.
+        let digits: Vec<usize> = (0..bytes.len()).filter(|&i| bytes[i].is_ascii_digit()).collect();
+        for _ in 0..rng.usize(1..4) {
+            if !digits.is_empty() {
+                bytes[digits[rng.usize(0..digits.len())]] = b"0123456789-.e+ "[rng.usize(0..15)];
+            }
+        }
+        return bytes;
+    }
     for _ in 0..rng.usize(1..8) {
         mutate(&mut rng, &mut bytes);
     }
@@ -97,8 +143,7 @@ fn mutated_scenes_never_panic() {
         for diagnostic in &parsed.diagnostics {
             let span = &diagnostic.span;
             assert!(span.start <= span.end && span.end <= parsed.source.text().len(), "{number}");
-            assert!(report.contains(diagnostic.message.split('\n').next().unwrap_or_default())
-                || report.len() > diagnostic.message.len(), "case {number}");
+            assert!(report.len() > diagnostic.message.len(), "case {number}");
         }
         assert!(
             !report.chars().any(|c| c.is_control() && !"\n\t\r".contains(c)),

@@ -12,11 +12,11 @@ pub(crate) fn regenerate(names: &[String]) -> Result<(), Failure> {
         return Err(fail("goldens are blessed by people who look at them, not where CI is set"));
     }
     // A picture that belongs to nothing is what one may be here to mend.
-    let goldens = golden::all().or_else(|problems| {
+    let goldens = golden::all().map_err(|problems| {
         for problem in &problems {
             eprintln!("{problem}");
         }
-        Err(fail("the goldens are not in order"))
+        fail("the goldens are not in order")
     })?;
     let is_named = |golden: &Golden, name: &String| {
         golden.name == *name || golden.name.rsplit_once('.').is_some_and(|(scene, _)| scene == name)

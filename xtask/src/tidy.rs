@@ -43,7 +43,7 @@ fn problems() -> Result<Vec<String>, Failure> {
     Ok(problems)
 }
 
-fn own<'a>(metadata: &'a Metadata) -> Vec<&'a Package> {
+fn own(metadata: &Metadata) -> Vec<&Package> {
     metadata.workspace_packages()
 }
 
@@ -214,9 +214,8 @@ fn readme(problems: &mut Vec<String>) -> Result<(), Failure> {
 fn check_command(command: &str) -> Result<(), String> {
     let words: Vec<&str> = command.split_whitespace().collect();
     let arguments = match words[..] {
-        ["cargo", "run", "--release", "--", ref arguments @ ..] | ["lancer", ref arguments @ ..] => {
-            arguments
-        }
+        ["cargo", "run", "--release", "--", ref arguments @ ..]
+        | ["lancer", ref arguments @ ..] => arguments,
         ["cargo", "xtask", ref arguments @ ..] => return parses::<crate::Cli>(arguments),
         ["cargo", "test", ..] => return Ok(()),
         _ => return Err("not a command that this check knows".to_owned()),

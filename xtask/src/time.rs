@@ -39,7 +39,10 @@ pub(crate) fn run(runs: usize, threads: usize) -> Result<(), Failure> {
     let scale = f64::from(SMALLER * SMALLER);
     println!("README scene, {width}x{height}, classic, {runs} runs");
     println!("  {threads} threads: {}", milliseconds(&mut many, 1.0));
-    println!("  1 thread, from {SMALLER} times smaller pictures: {}", milliseconds(&mut single, scale));
+    println!(
+        "  1 thread, from {SMALLER} times smaller pictures: {}",
+        milliseconds(&mut single, scale)
+    );
     println!("  times faster than a plain transcription: {:.1} (median)", median(&mut ratios));
     Ok(())
 }

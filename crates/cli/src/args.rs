@@ -185,12 +185,13 @@ fn parse_size(text: &str) -> Result<Size, String> {
 
 fn parse_crop(text: &str) -> Result<Window, String> {
     let parts: Vec<&str> = text.split(',').collect();
-    let window = match parts[..] {
-        [x, y, width, height] => x.parse().ok().zip(y.parse().ok()).and_then(|(x, y)| {
-            Some(Window { x, y, width: side(width)?, height: side(height)? })
-        }),
-        _ => None,
-    };
+    let window =
+        match parts[..] {
+            [x, y, width, height] => x.parse().ok().zip(y.parse().ok()).and_then(|(x, y)| {
+                Some(Window { x, y, width: side(width)?, height: side(height)? })
+            }),
+            _ => None,
+        };
     window.ok_or_else(|| {
         "expected column, row, width and height in pixels, such as 100,50,64,48".to_owned()
     })

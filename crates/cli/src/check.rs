@@ -27,7 +27,8 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
         match &parsed.scene {
             None => report::say(format_args!("{name}: {tally}")),
             Some(scene) => {
-                let and = if tally == Tally::default() { String::new() } else { format!("; {tally}") };
+                let and =
+                    if tally == Tally::default() { String::new() } else { format!("; {tally}") };
                 print_line(&format!(
                     "{name}: valid, {}x{} pixels, {}, {}{and}",
                     scene.camera.px_width.get(),

@@ -3,7 +3,9 @@
 use crate::args::CompareArgs;
 use crate::files::{Target, read};
 use crate::{Failure, print_line};
-use lancer_output::{Comparison, Format, Picture, compare, decode, difference_picture, encode_rgb8};
+use lancer_output::{
+    Comparison, Format, Picture, compare, decode, difference_picture, encode_rgb8,
+};
 use serde::Serialize;
 use std::path::Path;
 

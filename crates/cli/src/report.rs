@@ -56,7 +56,7 @@ pub(crate) fn show(name: &str, parsed: &Parsed, quiet: bool) -> Tally {
     tally
 }
 
-/// What [`show`] would print, without colours.
+/// All that is wrong with a file as text, without colours.
 #[must_use]
 pub fn to_text(name: &str, parsed: &Parsed) -> String {
     let text = Printable::new(name, &parsed.source);

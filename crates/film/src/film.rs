@@ -128,9 +128,8 @@ impl Film {
     /// renderer has looked at the rest and said so.
     #[must_use]
     pub fn frame_peak(&self) -> Option<f32> {
-        self.frame_peak.or_else(|| {
-            (self.window == self.frame.window()).then(|| Self::peak(&self.pixels))
-        })
+        self.frame_peak
+            .or_else(|| (self.window == self.frame.window()).then(|| Self::peak(&self.pixels)))
     }
 
     /// Says what the largest component of the whole frame is.

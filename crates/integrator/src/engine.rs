@@ -46,8 +46,8 @@ pub trait Tracer: Sync {
     /// The colours of a tile, row by row; `pixels` has one place for each.
     fn tile(&self, tile: Window, pixels: &mut [Rgb], counts: &mut RayCounts) {
         let columns = tile.x..tile.x + tile.width;
-        let places = (tile.y..tile.y + tile.height)
-            .flat_map(|y| columns.clone().map(move |x| (x, y)));
+        let places =
+            (tile.y..tile.y + tile.height).flat_map(|y| columns.clone().map(move |x| (x, y)));
         for ((x, y), pixel) in places.zip(pixels) {
             *pixel = self.pixel(x, y, counts);
         }

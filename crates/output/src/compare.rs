@@ -52,8 +52,10 @@ pub fn compare(a: &Picture, b: &Picture) -> Result<Comparison, SizesDiffer> {
         }
         if size > result.largest {
             result.largest = size;
-            result.largest_at =
-                Some(((index as u64 % u64::from(a.width)) as u32, (index as u64 / u64::from(a.width)) as u32));
+            result.largest_at = Some((
+                (index as u64 % u64::from(a.width)) as u32,
+                (index as u64 / u64::from(a.width)) as u32,
+            ));
         }
     }
     let components = 3.0 * pixels as f64;

@@ -60,8 +60,8 @@ mod tests {
 
     fn film(values: &[[f32; 3]]) -> Film {
         let frame = Size::new(values.len() as u32, 1);
-        let mut film = Film::new(frame, frame.window(), Display::Brightest { white: 255.0 })
-            .expect("it fits");
+        let mut film =
+            Film::new(frame, frame.window(), Display::Brightest { white: 255.0 }).expect("it fits");
         film.put(frame.window(), values);
         film
     }

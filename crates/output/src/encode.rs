@@ -100,8 +100,8 @@ mod tests {
 
     fn film() -> Film {
         let frame = Size::new(5, 3);
-        let mut film = Film::new(frame, frame.window(), Display::Brightest { white: 255.0 })
-            .expect("it fits");
+        let mut film =
+            Film::new(frame, frame.window(), Display::Brightest { white: 255.0 }).expect("it fits");
         let values: Vec<_> =
             (0..15_u8).map(|i| [f32::from(i) * 17.3, 255.0 - f32::from(i), 0.25]).collect();
         film.put(frame.window(), &values);

@@ -20,8 +20,7 @@ impl SceneBuilder {
     #[must_use]
     pub fn camera(mut self, camera: Result<Camera, InvalidField>) -> Self {
         if self.camera_given {
-            self.mistakes
-                .push(OutOfRange::new("given twice", "exactly one").in_field("camera"));
+            self.mistakes.push(OutOfRange::new("given twice", "exactly one").in_field("camera"));
         }
         self.camera_given = true;
         match camera {

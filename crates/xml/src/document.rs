@@ -30,18 +30,20 @@ pub(crate) fn decode(bytes: &[u8]) -> (Source, Option<Diagnostic>) {
 }
 
 /// The XML tree of `source`.
-pub(crate) fn tree(source: &Source) -> Result<Document<'_>, Diagnostic> {
+pub(crate) fn tree(source: &Source) -> Result<Document<'_>, Box<Diagnostic>> {
     let options = ParsingOptions { nodes_limit: MOST_NODES, ..ParsingOptions::default() };
     let document = Document::parse_with_options(source.text(), options)
-        .map_err(|error| explain(&error, source))?;
+        .map_err(|error| Box::new(explain(&error, source)))?;
     match too_deep(&document) {
         None => Ok(document),
-        Some(node) => Err(Diagnostic::error(
-            start_of(&node),
-            format!("elements are nested more than {DEEPEST} levels deep"),
-            "this one is too deep",
-        )
-        .help("a scene needs four levels: world, lights, lamp, point".to_owned())),
+        Some(node) => Err(Box::new(
+            Diagnostic::error(
+                start_of(&node),
+                format!("elements are nested more than {DEEPEST} levels deep"),
+                "this one is too deep",
+            )
+            .help("a scene needs four levels: world, lights, lamp, point".to_owned()),
+        )),
     }
 }
 
@@ -89,7 +91,9 @@ fn explain(error: &Error, source: &Source) -> Diagnostic {
                 "document type declarations and entities are refused",
                 "begins here",
             )
-            .help("a scene needs none: remove the declaration and write its entities out".to_owned())
+            .help(
+                "a scene needs none: remove the declaration and write its entities out".to_owned(),
+            )
         }
         Error::NodesLimitReached => Diagnostic::error(
             0..0,
@@ -117,8 +121,9 @@ fn explain(error: &Error, source: &Source) -> Diagnostic {
             let first = text[..at].rfind(&format!("{name}=")).filter(|&first| {
                 !text[first..at].contains('>') && text[..first].ends_with(char::is_whitespace)
             });
-            let mut diagnostic = error_at(&format!("`{}` is given twice", shorten(name)), "again here")
-                .help(format!("keep one `{}`", shorten(name)));
+            let mut diagnostic =
+                error_at(&format!("`{}` is given twice", shorten(name)), "again here")
+                    .help(format!("keep one `{}`", shorten(name)));
             diagnostic.span = at..(at + name.len()).min(text.len());
             match first {
                 Some(first) => diagnostic.related(first..first + name.len(), "first here"),

@@ -46,11 +46,7 @@ impl<'a, 'i> Reader<'a, 'i> {
             out.push(
                 Diagnostic::error(
                     self.start(),
-                    format!(
-                        "<{}> is in the namespace `{}`",
-                        self.element.name,
-                        shorten(namespace)
-                    ),
+                    format!("<{}> is in the namespace `{}`", self.element.name, shorten(namespace)),
                     "expected no namespace",
                 )
                 .help("remove `xmlns` and prefixes: the scene language has none".to_owned()),
@@ -189,9 +185,7 @@ impl<'a, 'i> Reader<'a, 'i> {
     }
 
     /// All children that the table knows, in order, not checked yet.
-    pub(crate) fn children(
-        &self,
-    ) -> impl Iterator<Item = (Node<'a, 'i>, &'static Element)> + '_ {
+    pub(crate) fn children(&self) -> impl Iterator<Item = (Node<'a, 'i>, &'static Element)> + '_ {
         self.node.children().filter(Node::is_element).filter_map(|node| {
             self.child_named(node.tag_name().name()).map(|child| (node, child.element))
         })
@@ -288,11 +282,8 @@ fn expected_child(child: &Child) -> String {
         .map(|attribute| format!(" {}=\"...\"", attribute.name))
         .collect();
     let close = if child.element.children.is_empty() { "/" } else { "" };
-    let meaning = if child.meaning.is_empty() {
-        String::new()
-    } else {
-        format!(": {}", child.meaning)
-    };
+    let meaning =
+        if child.meaning.is_empty() { String::new() } else { format!(": {}", child.meaning) };
     format!("expected <{}{attributes}{close}>{meaning}", child.element.name)
 }
 

@@ -63,9 +63,8 @@ pub(crate) fn decimal(text: &str) -> Result<f64, NotANumber> {
     let length = decimal_length(trimmed);
     let rest = &trimmed[length..];
     if length == 0 {
-        let help = trimmed
-            .starts_with(['\u{2212}', '\u{2013}'])
-            .then_some("write the minus sign as `-`");
+        let help =
+            trimmed.starts_with(['\u{2212}', '\u{2013}']).then_some("write the minus sign as `-`");
         return wrong("is not a number", all, help);
     }
     if !rest.is_empty() {

@@ -15,7 +15,8 @@ pub(crate) fn nearest<'a>(
         .map(|name| {
             let distance = strsim::damerau_levenshtein(&folded, name);
             // Abbreviations and longer forms ("col", "colour") are often farther.
-            let prefix = folded.len() >= 3 && (name.starts_with(&folded) || folded.starts_with(name));
+            let prefix =
+                folded.len() >= 3 && (name.starts_with(&folded) || folded.starts_with(name));
             (if prefix { distance.min(1) } else { distance }, name)
         })
         .filter(|(distance, name)| *distance <= name.len().max(folded.len()) / 3)

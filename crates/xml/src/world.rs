@@ -62,8 +62,7 @@ impl Parsed {
     /// # Errors
     /// Where the file holds no valid scene.
     pub fn into_result(self) -> Result<Scene, InvalidFile> {
-        self.scene
-            .ok_or(InvalidFile { text: self.source, diagnostics: self.diagnostics })
+        self.scene.ok_or(InvalidFile { text: self.source, diagnostics: self.diagnostics })
     }
 }
 
@@ -79,7 +78,7 @@ pub fn parse(bytes: &[u8], options: &Options) -> Parsed {
         match tree(&source) {
             Ok(document) => world(document.root_element(), options, &mut diagnostics),
             Err(diagnostic) => {
-                diagnostics.push(diagnostic);
+                diagnostics.push(*diagnostic);
                 None
             }
         }

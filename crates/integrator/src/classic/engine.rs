@@ -68,14 +68,7 @@ impl Tracer for ClassicTracer {
 impl ClassicTracer {
     /// The colour of a ray along which the lights glow so brightly; `share` is
     /// its share of the pixel, `depth` the number of mirrors before it.
-    fn colour(
-        &self,
-        ray: &Ray,
-        glow: f32,
-        share: f32,
-        depth: u32,
-        counts: &mut RayCounts,
-    ) -> Rgb {
+    fn colour(&self, ray: &Ray, glow: f32, share: f32, depth: u32, counts: &mut RayCounts) -> Rgb {
         let glow = 255.0 * glow;
         let Some(hit) = self.world.nearest(ray) else { return [glow; 3] };
         let surface = self.world.expand(ray, hit);

@@ -34,11 +34,7 @@ pub(super) fn lanes_of(mut bits: u32) -> impl Iterator<Item = usize> {
 impl Vectors {
     pub(super) fn each(mut f: impl FnMut(usize) -> Vector) -> Self {
         let vectors: [Vector; LANES] = std::array::from_fn(&mut f);
-        Self {
-            x: each(|k| vectors[k].x),
-            y: each(|k| vectors[k].y),
-            z: each(|k| vectors[k].z),
-        }
+        Self { x: each(|k| vectors[k].x), y: each(|k| vectors[k].y), z: each(|k| vectors[k].z) }
     }
 
     pub(super) fn lane(&self, k: usize) -> Vector {

@@ -92,11 +92,8 @@ impl Lighting {
         for group in &self.groups {
             let ways = group.ways_from(surface.point);
             let along = ways.vectors.dot(&surface.normal);
-            let in_front = if want_lit {
-                along.simd_ge(f64x4::ZERO).to_bitmask() & group.lights
-            } else {
-                0
-            };
+            let in_front =
+                if want_lit { along.simd_ge(f64x4::ZERO).to_bitmask() & group.lights } else { 0 };
             let glows = mirrored.map_or(Glows::NOWHERE, |ray| group.glows(&ways, ray));
             let asked = in_front | glows.lights;
             counts.shadow += u64::from(asked.count_ones());

@@ -37,9 +37,8 @@ impl Occluders {
     /// original's rule a hit may lie behind the origin. So a plane hides a sun
     /// from everywhere or from nowhere.
     pub(super) fn of_suns(towards: &[Vector], world: &World) -> Self {
-        let hidden = |towards: &Vector| {
-            world.planes.iter().any(|plane| towards.dot(&plane.normal) < 0.0)
-        };
+        let hidden =
+            |towards: &Vector| world.planes.iter().any(|plane| towards.dot(&plane.normal) < 0.0);
         let suns = towards.iter().enumerate();
         Self {
             hidden: suns.fold(0, |bits, (k, towards)| bits | u32::from(hidden(towards)) << k),

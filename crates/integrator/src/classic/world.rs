@@ -122,10 +122,8 @@ impl World {
     #[inline]
     #[must_use]
     pub fn nearest(&self, ray: &Ray) -> Option<Hit> {
-        let mut nearest = Nearest {
-            squared: f64::INFINITY,
-            hit: Hit { distance: 0.0, index: usize::MAX },
-        };
+        let mut nearest =
+            Nearest { squared: f64::INFINITY, hit: Hit { distance: 0.0, index: usize::MAX } };
         for (i, balls) in self.balls.iter().enumerate() {
             balls.distances(ray, |lane, distance| nearest.consider(i * LANES + lane, distance));
         }

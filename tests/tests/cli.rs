@@ -1,0 +1,391 @@
+//! The program itself, run as a user runs it.
+
+use lancer_tests::paths::scenes;
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+const SCENE: &str = r#"<world>
+  <camera pxwidth="40" pxheight="30" width="3.3"><origin x="1" y="0" z="3"/><target x="4" y="5" z="2"/></camera>
+  <lights><lamp brightness="4"><point x="5" y="5" z="4"/></lamp></lights>
+  <shapes>
+    <sphere color="grey" gloss="0.5" size="1"><point x="6" y="11" z="1"/></sphere>
+    <plane color="blue" gloss="0.1" chess="white"><origin x="0" y="0" z="0"/><normal x="0" y="0" z="1"/></plane>
+  </shapes>
+</world>"#;
+
+/// A folder of its own, with a scene in it.
+struct Folder(tempfile::TempDir);
+
+impl Folder {
+    fn new() -> Self {
+        let folder = Self(tempfile::tempdir().expect("a temporary folder"));
+        fs::write(folder.path("scene.xml"), SCENE).expect("it can be written");
+        folder
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    /// The names of all files in it, also hidden ones.
+    fn files(&self) -> Vec<String> {
+        let entries = fs::read_dir(self.0.path()).expect("it can be read");
+        let name = |e: fs::DirEntry| e.file_name().to_string_lossy().into_owned();
+        let mut names: Vec<_> = entries.filter_map(Result::ok).map(name).collect();
+        names.sort();
+        names
+    }
+
+    fn run(&self, arguments: &[&str]) -> Run {
+        self.run_with(arguments, b"")
+    }
+
+    fn run_with(&self, arguments: &[&str], input: &[u8]) -> Run {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_lancer-under-test"))
+            .args(arguments)
+            .current_dir(self.0.path())
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("it starts");
+        // It may end before it has read everything.
+        let _ = child.stdin.take().expect("it is piped").write_all(input);
+        Run(child.wait_with_output().expect("it ends"))
+    }
+}
+
+struct Run(Output);
+
+impl Run {
+    fn code(&self) -> Option<i32> {
+        self.0.status.code()
+    }
+
+    fn out(&self) -> String {
+        String::from_utf8_lossy(&self.0.stdout).into_owned()
+    }
+
+    fn err(&self) -> String {
+        String::from_utf8_lossy(&self.0.stderr).into_owned()
+    }
+
+    /// It did what was asked and said nothing.
+    #[track_caller]
+    fn silent(self) -> Self {
+        assert_eq!((self.code(), self.err(), self.out()), (Some(0), String::new(), String::new()));
+        self
+    }
+
+    /// It did not, said so, and printed nothing else.
+    #[track_caller]
+    fn fails(self, code: i32, with: &str) -> Self {
+        assert_eq!(self.code(), Some(code), "{}", self.err());
+        assert!(self.err().contains(with), "{:?} not in: {}", with, self.err());
+        assert_eq!(self.out(), "");
+        self
+    }
+}
+
+fn bytes(path: &Path) -> Vec<u8> {
+    fs::read(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+}
+
+#[test]
+fn a_picture_in_every_format_is_silent_in_a_pipe() {
+    let folder = Folder::new();
+    for (name, magic) in [
+        ("a.ppm", b"P6\n40 30\n255\n".as_slice()),
+        ("a.png", b"\x89PNG"),
+        ("a.exr", b"\x76\x2f\x31\x01"),
+        ("a.bmp", b"BM"),
+        ("a.jpg", b"\xff\xd8\xff"),
+        ("a.qoi", b"qoif"),
+        ("a.tif", b"II*\0"),
+        ("a.webp", b"RIFF"),
+        ("a.tga", b""),
+    ] {
+        folder.run(&["render", "scene.xml", "-o", name]).silent();
+        assert!(bytes(&folder.path(name)).starts_with(magic), "{name}");
+    }
+    folder.run(&["render", "scene.xml", "-o", "b", "--format", "png", "--bits", "16"]).silent();
+    assert_eq!(bytes(&folder.path("b"))[24], 16, "the bit depth in the PNG header");
+}
+
+#[test]
+fn standard_input_and_output_carry_the_same_picture() {
+    let folder = Folder::new();
+    folder.run(&["render", "scene.xml", "-o", "a.ppm"]).silent();
+    let run = folder.run_with(&["render", "-", "-o", "-"], SCENE.as_bytes());
+    assert_eq!((run.code(), run.err()), (Some(0), String::new()));
+    assert!(run.0.stdout == bytes(&folder.path("a.ppm")));
+    let run = folder.run_with(&["render", "-", "-o", "-", "--format", "png"], SCENE.as_bytes());
+    folder.run(&["render", "scene.xml", "-o", "a.png"]).silent();
+    assert!(run.0.stdout == bytes(&folder.path("a.png")));
+}
+
+#[test]
+fn threads_and_crops_agree_with_the_whole() {
+    let folder = Folder::new();
+    folder.run(&["render", "scene.xml", "-o", "a.ppm", "--threads", "1"]).silent();
+    folder.run(&["render", "scene.xml", "-o", "b.ppm", "--threads", "7"]).silent();
+    assert!(bytes(&folder.path("a.ppm")) == bytes(&folder.path("b.ppm")));
+
+    folder.run(&["render", "scene.xml", "-o", "c.ppm", "--crop", "10,20,5,4"]).silent();
+    let (whole, crop) = (bytes(&folder.path("a.ppm")), bytes(&folder.path("c.ppm")));
+    let crop = crop.strip_prefix(b"P6\n5 4\n255\n").expect("its header");
+    let whole = whole.strip_prefix(b"P6\n40 30\n255\n").expect("its header");
+    for (row, y) in crop.chunks(15).zip(20..) {
+        assert_eq!(row, &whole[(y * 40 + 10) * 3..][..15]);
+    }
+}
+
+#[test]
+fn sizes_are_as_asked_for() {
+    let folder = Folder::new();
+    folder.run(&["render", "scene.xml", "-o", "a.ppm", "--size", "13x7"]).silent();
+    assert!(bytes(&folder.path("a.ppm")).starts_with(b"P6\n13 7\n"));
+    // The file's own size does not matter then, only the one asked for.
+    fs::write(folder.path("huge.xml"), SCENE.replace("\"40\"", "\"400000000\"")).expect("written");
+    folder
+        .run(&["render", "huge.xml", "-o", "a.ppm"])
+        .fails(1, "the picture has 12000000000 pixels");
+    folder.run(&["render", "huge.xml", "-o", "a.ppm", "--size", "13x7"]).silent();
+    folder
+        .run(&["render", "scene.xml", "-o", "a.ppm", "--size", "20x20", "--max-pixels", "399"])
+        .fails(2, "--max-pixels");
+    folder.run(&["render", "scene.xml", "-o", "a.ppm", "--max-pixels", "1200"]).silent();
+    folder
+        .run(&["render", "scene.xml", "-o", "a.ppm", "--max-pixels", "1199"])
+        .fails(1, "1200 pixels");
+}
+
+#[test]
+fn statistics_add_up() {
+    let folder = Folder::new();
+    folder
+        .run(&["render", "scene.xml", "-o", "a.png", "--stats", "s.json", "--threads", "2"])
+        .silent();
+    let stats: serde_json::Value =
+        serde_json::from_slice(&bytes(&folder.path("s.json"))).expect("it is JSON");
+    assert_eq!(stats["engine"], "classic");
+    assert_eq!((&stats["width"], &stats["height"]), (&40.into(), &30.into()));
+    assert_eq!(stats["threads"], 2);
+    assert_eq!(stats["version"], env!("CARGO_PKG_VERSION"));
+    let rays = |kind: &str| stats["rays"][kind].as_u64().expect("a count");
+    assert_eq!(rays("primary"), 1200);
+    assert!(rays("reflected") > 0 && rays("shadow") > 0);
+    assert_eq!(rays("total"), rays("primary") + rays("reflected") + rays("shadow"));
+    let seconds = |stage: &str| stats["seconds"][stage].as_f64().expect("a time");
+    let stages = ["read", "parse", "render", "encode", "write"].map(seconds);
+    assert!(stages.iter().all(|s| *s >= 0.0) && stages.iter().sum::<f64>() <= seconds("total"));
+}
+
+#[test]
+fn wrong_usage_is_code_2_and_writes_nothing() {
+    let folder = Folder::new();
+    for (arguments, with) in [
+        (&["render", "scene.xml"][..], "--output"),
+        (&["render", "scene.xml", "-o", "a.gif"], "cannot tell the format"),
+        (&["render", "scene.xml", "-o", "a"], "give --format"),
+        (&["render", "scene.xml", "-o", "a.png", "--engine", "clasic"], "classic"),
+        (&["render", "scene.xml", "-o", "a.png", "--size", "40"], "400x300"),
+        (&["render", "scene.xml", "-o", "a.png", "--crop", "30,0,11,5"], "40x30"),
+        (&["render", "scene.xml", "-o", "a.png", "--threads", "0"], "from 1 to"),
+        (&["render", "scene.xml", "-o", "a.jpg", "--bits", "16"], "png and tiff"),
+        (&["render", "scene.xml", "-o", "a.png", "--stats", "./a.png"], "two different files"),
+        (&["render", "scene.xml", "-o", "-", "--stats", "-"], "two different files"),
+        (&["render", "scene.xml", "-o", "scene.xml", "--format", "png"], "overwrite the scene"),
+        (&["render", "scene.xml", "-o", "a.png", "--stats", "scene.xml"], "overwrite the scene"),
+        (&["render", "scene.xml", "--preview"], "needs a terminal"),
+        (&["compare", "a.png"], "Usage"),
+        (&["compare", "a.png", "b.png", "--max-diff", "-1"], "max-diff"),
+        (&["check"], "Usage"),
+        (&["rendre", "scene.xml"], "render"),
+    ] {
+        folder.run(arguments).fails(2, with);
+    }
+    assert_eq!(folder.files(), ["scene.xml"]);
+    assert_eq!(bytes(&folder.path("scene.xml")), SCENE.as_bytes());
+}
+
+#[test]
+fn help_and_version_are_on_standard_output() {
+    let folder = Folder::new();
+    for arguments in [&["--help"][..], &["render", "--help"], &["help", "compare"]] {
+        let run = folder.run(arguments);
+        assert_eq!((run.code(), run.err()), (Some(0), String::new()));
+        assert!(run.out().contains("Exit codes:"), "{}", run.out());
+    }
+    assert_eq!(folder.run(&["--version"]).out(), format!("lancer {}\n", env!("CARGO_PKG_VERSION")));
+}
+
+#[test]
+fn failures_leave_the_old_picture_and_no_rubbish() {
+    let folder = Folder::new();
+    fs::write(folder.path("a.png"), "the old picture").expect("written");
+    fs::write(folder.path("bad.xml"), SCENE.replace("gloss", "glos")).expect("written");
+    folder.run(&["render", "bad.xml", "-o", "a.png"]).fails(1, "did you mean `gloss`?");
+    folder.run(&["render", "gone.xml", "-o", "a.png"]).fails(1, "cannot read gone.xml");
+    folder.run(&["render", "scene.xml", "-o", "no/a.png"]).fails(1, "there is no folder no");
+    folder.run(&["render", "scene.xml", "-o", ".", "--format", "png"]).fails(1, "it is a folder");
+    // WebP has no pictures wider than 16383 pixels.
+    folder
+        .run(&["render", "scene.xml", "-o", "w.webp", "--size", "16384x1"])
+        .fails(1, "cannot write this picture as webp");
+    assert_eq!(bytes(&folder.path("a.png")), b"the old picture");
+    assert_eq!(folder.files(), ["a.png", "bad.xml", "scene.xml"]);
+}
+
+#[test]
+fn check_reports_all_files_and_all_mistakes() {
+    let folder = Folder::new();
+    let bad =
+        SCENE.replace("gloss=\"0.5\"", "gloss=\"5\"").replace("color=\"blue\"", "color=\"bleu\"");
+    fs::write(folder.path("bad.xml"), bad).expect("written");
+    let run = folder.run(&["check", "gone.xml", "bad.xml", "scene.xml"]);
+    assert_eq!(run.code(), Some(1));
+    assert!(run.err().contains("cannot read gone.xml"), "{}", run.err());
+    assert!(
+        run.err().contains("bad.xml:5:33") && run.err().contains("bad.xml:6:19"),
+        "{}",
+        run.err()
+    );
+    assert!(run.err().contains("bad.xml: 2 errors"), "{}", run.err());
+    assert_eq!(run.out(), "scene.xml: valid, 40x30 pixels, 1 light, 2 shapes\n");
+    folder.run(&["check", "--quiet", "scene.xml"]).silent();
+    let run = folder.run_with(&["check", "-"], b"<world>");
+    run.fails(1, "<stdin>:1:");
+}
+
+#[test]
+fn warnings_do_not_stop_a_render_and_quiet_hides_them() {
+    let folder = Folder::new();
+    let down = SCENE.replace("x=\"4\" y=\"5\" z=\"2\"", "x=\"1\" y=\"0\" z=\"0\"");
+    fs::write(folder.path("down.xml"), down).expect("written");
+    let run = folder.run(&["render", "down.xml", "-o", "a.png"]);
+    assert_eq!(run.code(), Some(0));
+    assert!(run.err().starts_with("warning: down.xml: the camera looks straight"), "{}", run.err());
+    folder.run(&["render", "down.xml", "-o", "a.png", "--quiet"]).silent();
+    let empty = scenes().join("invalid/empty_shapes.xml");
+    let empty = empty.to_str().expect("it is UTF-8");
+    assert!(folder.run(&["render", empty, "-o", "a.png"]).err().contains("<shapes> is empty"));
+    folder.run(&["render", empty, "-o", "a.png", "--quiet"]).silent();
+}
+
+#[test]
+fn compare_tells_by_its_exit_code() {
+    let folder = Folder::new();
+    folder.run(&["render", "scene.xml", "-o", "a.png"]).silent();
+    folder.run(&["render", "scene.xml", "-o", "a.ppm"]).silent();
+    let run = folder.run(&["compare", "a.png", "a.ppm"]);
+    assert_eq!((run.code(), run.err()), (Some(0), String::new()));
+    assert_eq!(run.out(), "identical: all 1200 pixels are the same\n");
+
+    // Three levels in one component of pixel 7,5.
+    let mut ppm = bytes(&folder.path("a.ppm"));
+    let place = b"P6\n40 30\n255\n".len() + (5 * 40 + 7) * 3 + 2;
+    ppm[place] = if ppm[place] > 100 { ppm[place] - 3 } else { ppm[place] + 3 };
+    fs::write(folder.path("b.ppm"), ppm).expect("written");
+    let run = folder.run(&["compare", "a.png", "b.ppm", "--json", "--diff", "d.png"]);
+    assert_eq!(run.code(), Some(1));
+    let verdict: serde_json::Value = serde_json::from_str(&run.out()).expect("it is JSON");
+    assert_eq!(verdict["same"], false);
+    assert_eq!((&verdict["differing"], &verdict["largest"]), (&1.into(), &3.0.into()));
+    assert_eq!(verdict["largest_at"], serde_json::json!([7, 5]));
+    let expected = (9.0_f64 / 3600.0).sqrt();
+    assert!((verdict["rmse"].as_f64().expect("a number") - expected).abs() < 1e-12);
+    let difference = image::open(folder.path("d.png")).expect("a picture").into_rgb8();
+    assert_eq!(difference.get_pixel(7, 5).0, [255, 0, 0]);
+
+    assert_eq!(folder.run(&["compare", "a.png", "b.ppm", "--max-diff", "3"]).code(), Some(0));
+    assert_eq!(folder.run(&["compare", "a.png", "b.ppm", "--max-diff", "2.9"]).code(), Some(1));
+    folder.run(&["compare", "a.png", "scene.xml"]).fails(1, "not a picture");
+    folder.run(&["compare", "a.png", "a.ppm", "--diff", "a.png"]).fails(2, "a file of its own");
+}
+
+#[cfg(unix)]
+mod unix {
+    use super::*;
+    use std::os::unix::fs::PermissionsExt;
+    use std::time::{Duration, Instant};
+
+    #[test]
+    fn files_have_ordinary_permissions_and_keep_their_own() {
+        let folder = Folder::new();
+        fs::write(folder.path("ordinary"), "").expect("written");
+        let mode = |name: &str| {
+            fs::metadata(folder.path(name)).expect("it is there").permissions().mode() & 0o777
+        };
+        folder.run(&["render", "scene.xml", "-o", "a.png"]).silent();
+        assert_eq!(mode("a.png"), mode("ordinary"));
+        let private = fs::Permissions::from_mode(0o600);
+        fs::set_permissions(folder.path("a.png"), private).expect("it is ours");
+        folder.run(&["render", "scene.xml", "-o", "a.png"]).silent();
+        assert_eq!(mode("a.png"), 0o600);
+    }
+
+    #[test]
+    fn links_are_followed_and_devices_written_to() {
+        let folder = Folder::new();
+        fs::create_dir(folder.path("real")).expect("created");
+        fs::write(folder.path("real/a.png"), "old").expect("written");
+        std::os::unix::fs::symlink("real/a.png", folder.path("link.png")).expect("created");
+        folder.run(&["render", "scene.xml", "-o", "link.png"]).silent();
+        assert!(fs::symlink_metadata(folder.path("link.png")).expect("there").is_symlink());
+        assert!(bytes(&folder.path("real/a.png")).starts_with(b"\x89PNG"));
+        folder.run(&["render", "scene.xml", "-o", "/dev/null", "--format", "png"]).silent();
+    }
+
+    #[test]
+    fn an_interruption_leaves_the_old_picture_and_no_rubbish() {
+        for signal in ["INT", "TERM"] {
+            let folder = Folder::new();
+            fs::write(folder.path("a.png"), "the old picture").expect("written");
+            let mut child = Command::new(env!("CARGO_BIN_EXE_lancer-under-test"))
+                .args(["render", "scene.xml", "-o", "a.png", "--size", "9000x9000"])
+                .current_dir(folder.0.path())
+                .stderr(Stdio::piped())
+                .spawn()
+                .expect("it starts");
+            // Long enough for it to have begun, far too short for it to end.
+            std::thread::sleep(Duration::from_millis(700));
+            let killed = Command::new("kill")
+                .args([&format!("-{signal}"), &child.id().to_string()])
+                .status()
+                .expect("there is a kill");
+            assert!(killed.success(), "it was still at work");
+            let begun = Instant::now();
+            let status = child.wait().expect("it ends");
+            assert!(begun.elapsed() < Duration::from_secs(5), "soon");
+            assert_eq!(status.code(), Some(1), "SIG{signal}");
+            let output = child.stderr.take().map(std::io::read_to_string);
+            let output = output.expect("it is piped").expect("it is text");
+            assert!(output.contains("interrupted; no picture was written"), "{output}");
+            assert_eq!(bytes(&folder.path("a.png")), b"the old picture");
+            assert_eq!(folder.files(), ["a.png", "scene.xml"]);
+        }
+    }
+
+    #[test]
+    fn nobody_listening_is_no_panic() {
+        let folder = Folder::new();
+        let script = format!(
+            "{} render scene.xml -o - --size 900x900 2>err | head -c 3; \
+             {} check scene.xml 2>>err | true; exit 0",
+            env!("CARGO_BIN_EXE_lancer-under-test"),
+            env!("CARGO_BIN_EXE_lancer-under-test"),
+        );
+        let status = Command::new("sh")
+            .args(["-c", &script])
+            .current_dir(folder.0.path())
+            .stdout(Stdio::null())
+            .status();
+        assert!(status.expect("there is a shell").success());
+        let err = fs::read_to_string(folder.path("err")).expect("it was written");
+        assert!(!err.contains("panicked"), "{err}");
+        assert!(err.contains("cannot write to standard output"), "{err}");
+    }
+}
