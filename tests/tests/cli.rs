@@ -194,7 +194,7 @@ fn wrong_usage_is_code_2_and_writes_nothing() {
         (&["render", "scene.xml", "-o", "a.png", "--size", "40"], "400x300"),
         (&["render", "scene.xml", "-o", "a.png", "--crop", "30,0,11,5"], "40x30"),
         (&["render", "scene.xml", "-o", "a.png", "--threads", "0"], "from 1 to"),
-        (&["render", "scene.xml", "-o", "a.jpg", "--bits", "16"], "png and tiff"),
+        (&["render", "scene.xml", "-o", "a.jpg", "--bits", "16"], "ppm, png and tiff"),
         (&["render", "scene.xml", "-o", "a.png", "--stats", "./a.png"], "two different files"),
         (&["render", "scene.xml", "-o", "-", "--stats", "-"], "two different files"),
         (&["render", "scene.xml", "-o", "scene.xml", "--format", "png"], "overwrite the scene"),
@@ -231,9 +231,9 @@ fn failures_leave_the_old_picture_and_no_rubbish() {
     folder.run(&["render", "gone.xml", "-o", "a.png"]).fails(1, "cannot read gone.xml");
     folder.run(&["render", "scene.xml", "-o", "no/a.png"]).fails(1, "there is no folder no");
     folder.run(&["render", "scene.xml", "-o", ".", "--format", "png"]).fails(1, "it is a folder");
-    // WebP has no pictures wider than 16383 pixels.
+    // WebP has no pictures wider than 16384 pixels.
     folder
-        .run(&["render", "scene.xml", "-o", "w.webp", "--size", "16384x1"])
+        .run(&["render", "scene.xml", "-o", "w.webp", "--size", "16385x1"])
         .fails(1, "cannot write this picture as webp");
     assert_eq!(bytes(&folder.path("a.png")), b"the old picture");
     assert_eq!(folder.files(), ["a.png", "bad.xml", "scene.xml"]);

@@ -53,7 +53,7 @@ pub struct RenderArgs {
     #[arg(long, value_name = "FORMAT", value_parser = format_parser())]
     pub format: Option<Format>,
 
-    /// How many bits each component has, in formats that leave the choice (png, tiff)
+    /// How many bits each component has, in formats that leave the choice (ppm, png, tiff)
     #[arg(long, value_name = "BITS", default_value = "8", value_parser = bits_parser())]
     pub bits: Bits,
 
@@ -116,7 +116,7 @@ pub struct CompareArgs {
     pub b: PathBuf,
 
     /// The largest difference to accept in any component, in levels of 255
-    #[arg(long, value_name = "N", default_value = "0", value_parser = parse_levels)]
+    #[arg(long, value_name = "N", default_value = "0", value_parser = parse_levels, allow_negative_numbers = true)]
     pub max_diff: f64,
 
     /// Write a picture of the differences: the brighter the red, the larger

@@ -100,8 +100,8 @@ impl Outputs {
                     && !format.is_linear()
                 {
                     return usage(format!(
-                        "--bits 16: the format {} has 8 bits for each component; png and tiff \
-                         have 16",
+                        "--bits 16: the format {} has 8 bits for each component; ppm, png and \
+                         tiff have 16",
                         format.name()
                     ));
                 }

@@ -1,15 +1,8 @@
 use crate::display::{PeakUnknown, codes8, codes16, linear};
 use crate::{Bits, Format};
 use image::codecs::{
-    bmp::BmpEncoder,
-    jpeg::JpegEncoder,
-    openexr::OpenExrEncoder,
-    png::PngEncoder,
-    pnm::{PnmEncoder, PnmSubtype, SampleEncoding},
-    qoi::QoiEncoder,
-    tga::TgaEncoder,
-    tiff::TiffEncoder,
-    webp::WebPEncoder,
+    bmp::BmpEncoder, jpeg::JpegEncoder, openexr::OpenExrEncoder, png::PngEncoder, qoi::QoiEncoder,
+    tga::TgaEncoder, tiff::TiffEncoder, webp::WebPEncoder,
 };
 use image::{ExtendedColorType, ImageEncoder};
 use lancer_film::Film;
@@ -75,9 +68,7 @@ fn write(
     let mut file = Cursor::new(Vec::new());
     let out = &mut file;
     let result = match format {
-        Format::Ppm => PnmEncoder::new(out)
-            .with_subtype(PnmSubtype::Pixmap(SampleEncoding::Binary))
-            .write_image(samples, width, height, kind),
+        Format::Ppm => return Ok(ppm(samples, (width, height), kind)),
         Format::Png => PngEncoder::new(out).write_image(samples, width, height, kind),
         Format::Exr => OpenExrEncoder::new(out).write_image(samples, width, height, kind),
         Format::Bmp => BmpEncoder::new(out).write_image(samples, width, height, kind),
@@ -90,6 +81,22 @@ fn write(
     };
     result.map_err(|reason| EncodeError::Encoder { format, reason })?;
     Ok(file.into_inner())
+}
+
+/// A binary portable pixmap, with the three lines of header that the simplest
+/// readers expect (the library's has two, and no 16 bits).
+fn ppm(samples: &[u8], (width, height): (u32, u32), kind: ExtendedColorType) -> Vec<u8> {
+    let wide = kind == ExtendedColorType::Rgb16;
+    let top = if wide { 65535 } else { 255 };
+    let mut file = format!("P6\n{width} {height}\n{top}\n").into_bytes();
+    if wide {
+        // The most significant byte comes first.
+        let codes = samples.as_chunks().0.iter().map(|code| u16::from_ne_bytes(*code));
+        file.extend(codes.flat_map(u16::to_be_bytes));
+    } else {
+        file.extend_from_slice(samples);
+    }
+    file
 }
 
 #[cfg(test)]
@@ -125,7 +132,8 @@ mod tests {
 
     #[test]
     fn sixteen_bits_are_kept_or_refused() {
-        let reference = encode(&film(), Format::Png, Bits::Sixteen).expect("it encodes");
+        let reference = encode(&film(), Format::Ppm, Bits::Sixteen).expect("it encodes");
+        assert!(reference.starts_with(b"P6\n5 3\n65535\n"));
         let reference = decode(&reference).expect("it decodes");
         for (index, value) in film().pixels().iter().enumerate() {
             let codes = value.map(|v| f64::from((v * 257.0) as u16) / 257.0);

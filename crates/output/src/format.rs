@@ -70,7 +70,7 @@ impl Format {
     /// Whether it can hold 16 bits for each component.
     #[must_use]
     pub const fn has_16_bits(self) -> bool {
-        matches!(self, Self::Png | Self::Tiff)
+        matches!(self, Self::Ppm | Self::Png | Self::Tiff)
     }
 
     /// Whether it holds linear values instead of codes for a display.

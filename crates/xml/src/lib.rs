@@ -25,7 +25,7 @@
 //!     ]
 //! );
 //! assert_eq!(parsed.diagnostics[0].help.as_deref(), Some("did you mean `gloss`?"));
-//! assert_eq!(parsed.source.location(parsed.diagnostics[1].span.start), (7, 42));
+//! assert_eq!(parsed.source.location(parsed.diagnostics[1].span.start), (7, 41));
 //! assert!(parsed.scene.is_none());
 //!
 //! let mended = text.replace("glos=", "gloss=").replace("-1", "1");
