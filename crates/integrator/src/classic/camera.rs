@@ -1,3 +1,4 @@
+use super::lanes::{Vectors, each};
 use super::naive_unit;
 use lancer_math::{Point, Ray, Vector};
 use lancer_scene::Camera;
@@ -55,10 +56,31 @@ impl PinholeCamera {
     /// The ray of the pixel at column `x` and row `y`; row 0 is at the top.
     #[must_use]
     pub fn ray(&self, x: u32, y: u32) -> Ray {
-        let latitude = (self.px_height / 2.0 - f64::from(y)) * self.plane_height / self.px_height;
+        let latitude = self.latitude(y);
         let longitude = (f64::from(x) - self.middle_column) * self.plane_width / self.px_width;
         let through = self.target + self.up * latitude + self.right * longitude;
         Ray::new(self.origin, naive_unit(through - self.origin))
+    }
+
+    /// The directions of the rays of as many pixels as there are lanes, from
+    /// column `x` on; those of columns that the picture has not mean nothing.
+    #[inline(always)]
+    pub(super) fn directions(&self, x: u32, y: u32) -> Vectors {
+        let latitude = self.latitude(y);
+        let column = each(|k| f64::from(x) + k as f64);
+        let longitude = (column - self.middle_column) * self.plane_width / self.px_width;
+        let middle = self.target + self.up * latitude;
+        let right = &self.right;
+        let through = Vectors {
+            x: longitude * right.x + middle.x,
+            y: longitude * right.y + middle.y,
+            z: longitude * right.z + middle.z,
+        };
+        through.minus(&self.origin).naive_unit()
+    }
+
+    fn latitude(&self, y: u32) -> f64 {
+        (self.px_height / 2.0 - f64::from(y)) * self.plane_height / self.px_height
     }
 
     /// Where all rays start.

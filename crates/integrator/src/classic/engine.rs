@@ -1,5 +1,8 @@
-use super::lighting::{Lighting, Seen};
-use crate::{Engine, PinholeCamera, RayCounts, Rgb, Tracer, World};
+use super::eye::Eye;
+use super::lanes::LANES;
+use super::lighting::Lighting;
+use crate::{Engine, Hit, PinholeCamera, RayCounts, Rgb, Tracer, World};
+use lancer_film::Window;
 use lancer_math::{Ray, Vector};
 use lancer_scene::Scene;
 
@@ -7,10 +10,10 @@ use lancer_scene::Scene;
 /// a depth of four, and a glow around visible lights.
 ///
 /// It computes what the original does and in its precision: geometry and sums
-/// of light in double, colours in single. Three shortcuts are exact: a
+/// of light in double, colours in single. Three shortcuts change no bit: a
 /// reflected ray's glow reuses what is known of the lights from the point that
-/// it leaves; a glow too faint to change a bit of the colour that it is added
-/// to is not computed; a perfect mirror's own colour is not computed.
+/// it leaves, planes that cannot hide a light are not asked, and a perfect
+/// mirror's own colour is not computed.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Classic;
 
@@ -28,25 +31,18 @@ impl Engine for Classic {
     }
 
     fn prepare<'s>(&'s self, scene: &'s Scene) -> Box<dyn Tracer + 's> {
-        let camera = PinholeCamera::new(&scene.camera);
         let world = World::new(scene);
         let lighting = Lighting::new(scene, &world);
-        let seen_from_eye = lighting.seen_from(camera.origin(), &world);
-        Box::new(ClassicTracer {
-            own_colour_is_finite: lighting.is_finite(),
-            camera,
-            world,
-            lighting,
-            seen_from_eye,
-        })
+        let eye = Eye::new(PinholeCamera::new(&scene.camera), &world, &lighting);
+        let own_colour_is_finite = lighting.is_finite();
+        Box::new(ClassicTracer { eye, world, lighting, own_colour_is_finite })
     }
 }
 
 struct ClassicTracer {
-    camera: PinholeCamera,
+    eye: Eye,
     world: World,
     lighting: Lighting,
-    seen_from_eye: Seen,
     own_colour_is_finite: bool,
 }
 
@@ -58,19 +54,45 @@ const DEEPEST: u32 = 3;
 
 impl Tracer for ClassicTracer {
     fn pixel(&self, x: u32, y: u32, counts: &mut RayCounts) -> Rgb {
-        counts.primary += 1;
-        let ray = self.camera.ray(x, y);
-        let glow = self.lighting.glow(&self.seen_from_eye, &ray.direction);
-        self.colour(&ray, glow, 1.0, 0, counts)
+        let mut pixel = [[0.0; 3]];
+        self.neighbours(x, y, &mut pixel, counts);
+        pixel[0]
+    }
+
+    fn tile(&self, tile: Window, pixels: &mut [Rgb], counts: &mut RayCounts) {
+        for (row, y) in pixels.chunks_mut(tile.width as usize).zip(tile.y..) {
+            for (neighbours, x) in row.chunks_mut(LANES).zip((tile.x..).step_by(LANES)) {
+                self.neighbours(x, y, neighbours, counts);
+            }
+        }
     }
 }
 
 impl ClassicTracer {
-    /// The colour of a ray along which the lights glow so brightly; `share` is
-    /// its share of the pixel, `depth` the number of mirrors before it.
-    fn colour(&self, ray: &Ray, glow: f32, share: f32, depth: u32, counts: &mut RayCounts) -> Rgb {
+    /// The colours of up to four pixels from column `x` of row `y` on.
+    fn neighbours(&self, x: u32, y: u32, pixels: &mut [Rgb], counts: &mut RayCounts) {
+        let views = self.eye.look(&self.world, x, y);
+        counts.primary += pixels.len() as u64;
+        for (k, pixel) in pixels.iter_mut().enumerate() {
+            let (ray, hit) = views.lane(&self.eye, k);
+            *pixel = self.colour(&ray, hit, views.glow[k], 1.0, 0, counts);
+        }
+    }
+
+    /// The colour of a ray that meets that and along which the lights glow so
+    /// brightly; `share` is its share of the pixel, `depth` the number of
+    /// mirrors before it.
+    fn colour(
+        &self,
+        ray: &Ray,
+        hit: Option<Hit>,
+        glow: f32,
+        share: f32,
+        depth: u32,
+        counts: &mut RayCounts,
+    ) -> Rgb {
         let glow = 255.0 * glow;
-        let Some(hit) = self.world.nearest(ray) else { return [glow; 3] };
+        let Some(hit) = hit else { return [glow; 3] };
         let surface = self.world.expand(ray, hit);
         let gloss = surface.gloss;
         if gloss == 0.0 || f64::from(share) < LEAST_SHARE || depth > DEEPEST {
@@ -89,7 +111,8 @@ impl ClassicTracer {
             counts,
         );
         counts.reflected += 1;
-        let reflected = self.colour(&mirrored, light.glow, share * gloss, depth + 1, counts);
+        let hit = self.world.nearest(&mirrored);
+        let reflected = self.colour(&mirrored, hit, light.glow, share * gloss, depth + 1, counts);
         if !want_own {
             return reflected;
         }

@@ -12,9 +12,9 @@ pub(super) const LANES: usize = 4;
 /// A vector for each lane.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Vectors {
-    x: f64x4,
-    y: f64x4,
-    z: f64x4,
+    pub(super) x: f64x4,
+    pub(super) y: f64x4,
+    pub(super) z: f64x4,
 }
 
 /// What `f` gives for each lane.
@@ -39,6 +39,19 @@ impl Vectors {
 
     pub(super) fn lane(&self, k: usize) -> Vector {
         Vector::new(self.x.to_array()[k], self.y.to_array()[k], self.z.to_array()[k])
+    }
+
+    /// The same vector in each lane.
+    #[inline(always)]
+    pub(super) fn splat(v: Vector) -> Self {
+        Self { x: f64x4::splat(v.x), y: f64x4::splat(v.y), z: f64x4::splat(v.z) }
+    }
+
+    /// Made as long as 1, as `naive_unit` does it.
+    #[inline(always)]
+    pub(super) fn naive_unit(&self) -> Self {
+        let length = self.norm_squared().sqrt();
+        Self { x: self.x / length, y: self.y / length, z: self.z / length }
     }
 
     /// The vectors from `point` to these.

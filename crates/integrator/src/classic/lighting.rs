@@ -41,11 +41,30 @@ pub(crate) struct Gathered {
     pub(crate) glow: f32,
 }
 
-/// The lights as they are seen from one point.
+/// A light that is visible from the eye.
 #[derive(Debug, Clone)]
-pub(super) struct Seen {
-    /// For each group, the ways and the bits of the lights that are visible.
-    groups: Vec<(Ways, u32)>,
+pub(super) struct Beacon {
+    way: Vector,
+    length_squared: f64x4,
+    brightness: f64x4,
+    /// Where the square along a ray is below this, the glow is nothing.
+    least: f64x4,
+}
+
+impl Beacon {
+    /// How brightly it glows along each of the rays.
+    #[inline(always)]
+    pub(super) fn glow(&self, directions: &Vectors) -> f64x4 {
+        let along = directions.dot(&self.way);
+        let along_squared = along * along;
+        let glows = along.simd_gt(f64x4::ZERO) & along_squared.simd_ge(self.least);
+        if !glows.any() {
+            return f64x4::ZERO;
+        }
+        let exponents = (along_squared / self.length_squared - 1.0) * GLOW_STEEPNESS;
+        let glow = self.brightness * f64x4::from(elementary::exp_each(exponents.to_array()));
+        glows & glow
+    }
 }
 
 impl Lighting {
@@ -104,27 +123,27 @@ impl Lighting {
                     lit += group.brightness[k] * cosines[k];
                 }
             }
-            glow += group.glow(&glows, visible);
+            glow = group.add_glow(glow, &glows, visible);
         }
         Gathered { lit: lit as f32, glow: glow as f32 }
     }
 
-    /// The lights as seen from `point`, whatever surface it is on.
-    pub(super) fn seen_from(&self, point: Point, world: &World) -> Seen {
-        let groups = self.groups.iter().map(|group| {
-            let ways = group.ways_from(point);
-            (ways, group.lights & !group.occluders.hidden(world, &ways, group.lights))
-        });
-        Seen { groups: groups.collect() }
-    }
-
-    /// How brightly the lights seen from its origin glow along a ray.
-    pub(super) fn glow(&self, seen: &Seen, ray: &Vector) -> f32 {
-        let groups = self.groups.iter().zip(&seen.groups);
-        // Not `sum`, which begins with -0.
-        groups.fold(0.0, |sum, (group, (ways, visible))| {
-            sum + group.glow(&group.glows(ways, ray), *visible)
-        }) as f32
+    /// The lights that are visible from the eye, in the order of sums.
+    pub(super) fn beacons(&self, eye: Point, world: &World) -> Vec<Beacon> {
+        let beacons = |group: &Group| {
+            let ways = group.ways_from(eye);
+            let visible = group.lights & !group.occluders.hidden(world, &ways, group.lights);
+            let lengths_squared = ways.lengths_squared.to_array();
+            let least = (group.glow_from * ways.lengths_squared).to_array();
+            let beacon = |k: usize| Beacon {
+                way: ways.vectors.lane(k),
+                length_squared: f64x4::splat(lengths_squared[k]),
+                brightness: f64x4::splat(group.brightness[k]),
+                least: f64x4::splat(least[k]),
+            };
+            lanes_of(visible).map(beacon).collect::<Vec<_>>()
+        };
+        self.groups.iter().flat_map(beacons).collect()
     }
 }
 
@@ -187,12 +206,15 @@ impl Group {
         }
     }
 
+    /// `sum` and the glow of the visible lights, added one by one.
     #[inline(always)]
-    fn glow(&self, glows: &Glows, visible: u32) -> f64 {
-        let mut sum = 0.0;
-        let exponents = glows.exponents.to_array();
-        for k in lanes_of(glows.lights & visible) {
-            sum += self.brightness[k] * elementary::exp(exponents[k]);
+    fn add_glow(&self, mut sum: f64, glows: &Glows, visible: u32) -> f64 {
+        let glowing = glows.lights & visible;
+        if glowing != 0 {
+            let glow = elementary::exp_each(glows.exponents.to_array());
+            for k in lanes_of(glowing) {
+                sum += self.brightness[k] * glow[k];
+            }
         }
         sum
     }

@@ -5,6 +5,7 @@
 pub(crate) mod camera;
 mod checker;
 pub(crate) mod engine;
+mod eye;
 mod lanes;
 pub(crate) mod lighting;
 mod occluders;

@@ -1,4 +1,5 @@
 use super::checker;
+use super::eye::Nearest;
 use super::lanes::{LANES, Vectors, each, lanes_of};
 use super::naive_unit;
 use lancer_math::{Point, Ray, Vector};
@@ -33,6 +34,11 @@ impl Half {
     pub(super) fn hides_lamp(&self, point: &Point, way: &Vector) -> bool {
         let slope = way.dot(&self.normal);
         (point.coords.dot(&self.normal) - self.offset).abs() < -slope
+    }
+
+    pub(super) fn facing(&self, eye: &Point) -> Facing {
+        let to_plane = self.offset - eye.coords.dot(&self.normal);
+        Facing { normal: self.normal, to_plane: f64x4::splat(to_plane) }
     }
 
     pub(super) fn shows_second_colour(&self, point: &Point) -> bool {
@@ -83,6 +89,25 @@ impl Halves {
             for k in lanes_of(bits) {
                 hit(k, distance[k]);
             }
+        }
+    }
+}
+
+/// A plane as it is seen from the eye.
+#[derive(Debug, Clone)]
+pub(super) struct Facing {
+    normal: Vector,
+    to_plane: f64x4,
+}
+
+impl Facing {
+    /// As [`Halves::distances`] of one plane and four rays.
+    #[inline(always)]
+    pub(super) fn meet(&self, directions: &Vectors, index: f64x4, nearest: &mut Nearest) {
+        let slope = directions.dot(&self.normal);
+        let hits = slope.simd_lt(f64x4::ZERO);
+        if hits.any() {
+            nearest.consider(index, self.to_plane / slope, hits);
         }
     }
 }

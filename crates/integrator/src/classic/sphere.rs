@@ -1,3 +1,4 @@
+use super::eye::Nearest;
 use super::lanes::{LANES, Vectors, each, lanes_of};
 use super::naive_unit;
 use super::occluders::Ways;
@@ -65,6 +66,15 @@ impl Ball {
         naive_unit(point - self.centre)
     }
 
+    pub(super) fn ahead_of(&self, eye: &Point) -> Ahead {
+        let to_centre = self.centre - eye;
+        Ahead {
+            to_centre,
+            square: f64x4::splat(to_centre.norm_squared()),
+            radius_squared: f64x4::splat(self.radius_squared),
+        }
+    }
+
     /// Which of the ways `asked` for meet the sphere before the light, as bits;
     /// other bits mean nothing.
     ///
@@ -82,5 +92,26 @@ impl Ball {
         }
         let before = (along - under_root.sqrt()).abs().simd_lt(ways.reaches);
         (meets & before).to_bitmask()
+    }
+}
+
+/// A sphere as it is seen from the eye.
+#[derive(Debug, Clone)]
+pub(super) struct Ahead {
+    to_centre: Vector,
+    square: f64x4,
+    radius_squared: f64x4,
+}
+
+impl Ahead {
+    /// As [`Balls::distances`] of one sphere and four rays.
+    #[inline(always)]
+    pub(super) fn meet(&self, directions: &Vectors, index: f64x4, nearest: &mut Nearest) {
+        let along = directions.dot(&self.to_centre);
+        let under_root = self.radius_squared - (self.square - along * along);
+        let hits = along.simd_ge(f64x4::ZERO) & under_root.simd_ge(f64x4::ZERO);
+        if hits.any() {
+            nearest.consider(index, along - under_root.sqrt(), hits);
+        }
     }
 }

@@ -26,7 +26,7 @@ pub struct Hit {
     /// How far along the ray; negative where it is behind the origin.
     pub distance: f64,
     /// The world's number for the shape.
-    index: usize,
+    pub(super) index: usize,
 }
 
 /// The nearest hit so far.
@@ -133,7 +133,16 @@ impl World {
                 nearest.consider(first + i * LANES + lane, distance);
             });
         }
-        let first = first + self.planes.len();
+        let hit = (nearest.hit.index != usize::MAX).then_some(nearest.hit);
+        if self.customs.is_empty() { hit } else { self.nearest_custom(ray, hit, nearest.squared) }
+    }
+
+    /// The nearest hit, where that of spheres and planes is known.
+    #[cold]
+    pub(super) fn nearest_custom(&self, ray: &Ray, hit: Option<Hit>, squared: f64) -> Option<Hit> {
+        let none = Hit { distance: 0.0, index: usize::MAX };
+        let mut nearest = Nearest { squared, hit: hit.unwrap_or(none) };
+        let first = self.spheres.len() + self.planes.len();
         for (i, custom) in self.customs.iter().enumerate() {
             if let Some(distance) = custom.nearest(ray) {
                 nearest.consider(first + i, distance);
