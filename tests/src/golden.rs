@@ -11,9 +11,10 @@
 //! # reason = "..."
 //! ```
 //!
-//! Each is a picture `tests/goldens/NAME.ENGINE.png`.
+//! Each is a picture `tests/goldens/NAME.ENGINE.png`. Scenes may stand in folders,
+//! which are then part of their names; `scenes/invalid` is not looked into.
 
-use crate::paths::{files_with_extension, goldens, scenes, stem};
+use crate::paths::{all_with_extension, goldens, name_of, scenes};
 use lancer_integrator::{RenderSettings, engine_by_name, render};
 use lancer_output::{
     Bits, Comparison, Format, Picture, compare, decode, difference_picture, encode, encode_rgb8,
@@ -73,19 +74,24 @@ fn problem(what: impl std::fmt::Display) -> Problem {
 /// golden belongs to nothing.
 pub fn all() -> Result<Vec<Golden>, Vec<Problem>> {
     let (mut found, mut problems) = (Vec::new(), Vec::new());
-    let xml = files_with_extension(&scenes(), "xml");
-    for scene in &xml {
-        match of_scene(scene) {
+    let invalid = scenes().join("invalid");
+    let walk = |extension| {
+        let mut files = all_with_extension(&scenes(), extension);
+        files.retain(|file| !file.starts_with(&invalid));
+        files
+    };
+    for scene in walk("xml") {
+        match of_scene(&scene) {
             Ok(goldens) => found.extend(goldens),
             Err(problem) => problems.push(problem),
         }
     }
-    for settings in files_with_extension(&scenes(), "toml") {
+    for settings in walk("toml") {
         if !settings.with_extension("xml").is_file() {
             problems.push(problem(format!("{} has no scene beside it", settings.display())));
         }
     }
-    for picture in files_with_extension(&goldens(), "png") {
+    for picture in all_with_extension(&goldens(), "png") {
         if !found.iter().any(|golden: &Golden| golden.path() == picture) {
             problems.push(problem(format!(
                 "{} is the golden of no scene: delete it",
@@ -102,12 +108,18 @@ fn of_scene(scene: &Path) -> Result<Vec<Golden>, Problem> {
         .map_err(|e| problem(format!("cannot read {}: {e}", path.display())))?;
     let file: SettingsFile =
         toml::from_str(&text).map_err(|e| problem(format!("{}: {e}", path.display())))?;
-    let mut goldens = Vec::new();
+    if file.golden.is_empty() {
+        return Err(problem(format!("{} has no golden", path.display())));
+    }
+    let mut goldens: Vec<Golden> = Vec::new();
     for settings in file.golden {
         if settings.max_diff != 0.0 && settings.reason.is_none() {
             return Err(problem(format!("{}: max-diff needs a reason", path.display())));
         }
-        let name = format!("{}.{}", stem(scene), settings.engine);
+        let name = format!("{}.{}", name_of(scene, &scenes()), settings.engine);
+        if goldens.iter().any(|golden| golden.name == name) {
+            return Err(problem(format!("{}: two goldens are {name}", path.display())));
+        }
         goldens.push(Golden { name, scene: scene.to_owned(), settings });
     }
     Ok(goldens)
@@ -194,9 +206,9 @@ impl Golden {
     pub fn leave_evidence(&self, actual: &[u8], folder: &Path) -> Result<(), Problem> {
         let write = |kind: &str, bytes: &[u8]| {
             let path = folder.join(format!("{}.{kind}.png", self.name));
+            fs::create_dir_all(path.parent().unwrap_or(folder)).map_err(problem)?;
             fs::write(path, bytes).map_err(problem)
         };
-        fs::create_dir_all(folder).map_err(problem)?;
         write("actual", actual)?;
         let Ok(expected) = fs::read(self.path()) else { return Ok(()) };
         write("expected", &expected)?;

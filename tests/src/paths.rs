@@ -36,6 +36,29 @@ pub fn files_with_extension(folder: &Path, extension: &str) -> Vec<PathBuf> {
     files
 }
 
+/// Files with that extension in a folder and in those inside it, sorted.
+///
+/// # Panics
+/// Where a folder cannot be read.
+#[must_use]
+pub fn all_with_extension(folder: &Path, extension: &str) -> Vec<PathBuf> {
+    let mut files = files_with_extension(folder, extension);
+    let entries = std::fs::read_dir(folder)
+        .unwrap_or_else(|e| panic!("cannot read the folder {}: {e}", folder.display()));
+    for path in entries.filter_map(|entry| Some(entry.ok()?.path())).filter(|path| path.is_dir()) {
+        files.extend(all_with_extension(&path, extension));
+    }
+    files.sort();
+    files
+}
+
+/// A file's path below `folder` without its extension.
+#[must_use]
+pub fn name_of(file: &Path, folder: &Path) -> String {
+    let name = file.strip_prefix(folder).unwrap_or(file).with_extension("");
+    name.to_string_lossy().replace('\\', "/")
+}
+
 /// A file's name without its extension.
 #[must_use]
 pub fn stem(path: &Path) -> String {

@@ -1,10 +1,10 @@
 //! The original program's two engines, transcribed from their description
 //! line by line: no shortcut, no sharing with the product's engines, slow.
 //!
-//! What the product computes is compared with this bit for bit. Only the
-//! points at which `classic` has defined its own arithmetic are written the
-//! same way here: the borders of a sphere's checker, the exponential function,
-//! shadows decided without division, and where a glow ends.
+//! What the product computes is compared bit for bit with the transcription in
+//! which the points where `classic` has defined its own arithmetic
+//! (ARCHITECTURE.md lists them) are written the same way; and picture by
+//! picture with the one in which they are written as the original has them.
 
 use lancer_math::{Point, Vector, elementary};
 use lancer_scene::{Colour, Geometry, Light, Pattern, Scene};
@@ -14,8 +14,12 @@ use lancer_scene::{Colour, Geometry, Light, Pattern, Scene};
 pub enum Plain {
     /// Recursive, with glow ending where `classic` ends it.
     Classic,
-    /// Recursive, with glow from lights at any angle below 90 degrees.
+    /// The same, with glow from lights at any angle below 90 degrees.
     ClassicEndlessGlow,
+    /// Recursive, all as the original's description has it: a light is hidden
+    /// if the nearest hit along the unit ray to it is nearer, checkers by the
+    /// arc sine and cosine of a mathematical library.
+    Original,
     /// Not recursive.
     Direct,
 }
@@ -80,7 +84,10 @@ pub fn render(scene: &Scene, engine: Plain) -> Vec<[f32; 3]> {
         for x in 0..columns {
             let lat = (px_height / 2.0 - f64::from(y)) * height / px_height;
             let lon = (f64::from(x) - (px_width / 2.0).floor()) * width / px_width;
-            let through = target + n2 * lat + n1 * lon;
+            let through = match engine {
+                Plain::Original => target + n1 * lon + n2 * lat,
+                _ => target + n2 * lat + n1 * lon,
+            };
             let direction = unit(through - origin);
             pixels.push(match engine {
                 Plain::Direct => world.direct(origin, direction),
@@ -144,7 +151,10 @@ impl World {
                     squared_distance: t * t,
                     point,
                     normal,
-                    second: second_on_ball(normal),
+                    second: match self.engine {
+                        Plain::Original => second_by_arcs(normal),
+                        _ => second_on_ball(normal),
+                    },
                     surface: ball.surface,
                 });
             }
@@ -174,6 +184,15 @@ impl World {
     /// is met before it.
     fn look_at(&self, light: &Light, point: Point) -> (Vector, bool) {
         match light {
+            Light::Sun { direction, .. } if self.engine == Plain::Original => {
+                let way = unit(-direction.get());
+                (way, self.nearest(point, way).is_some())
+            }
+            Light::Lamp { point: lamp, .. } if self.engine == Plain::Original => {
+                let way = lamp.get() - point;
+                let hit = self.nearest(point, unit(way));
+                (way, hit.is_some_and(|hit| hit.squared_distance < way.norm_squared()))
+            }
             Light::Sun { direction, .. } => {
                 let way = unit(-direction.get());
                 (way, self.hides(point, way, f64::INFINITY))
@@ -210,7 +229,10 @@ impl World {
         for light in &self.lights {
             let (way, hidden) = self.look_at(light, hit.point);
             let along = way.dot(&hit.normal);
-            if along >= 0.0 && !hidden {
+            if self.engine == Plain::Original && !hidden {
+                let cosine = unit(way).dot(&hit.normal);
+                sum += if cosine >= 0.0 { light.brightness().get() * cosine } else { 0.0 };
+            } else if along >= 0.0 && !hidden {
                 sum += light.brightness().get() * (along / length_squared(light, way).sqrt());
             }
         }
@@ -233,13 +255,18 @@ impl World {
             if self.engine == Plain::Classic {
                 let brightness = light.brightness().get();
                 let mut bits = -1022;
-                while bits <= 1023 && brightness >= libm_scalbn(bits) {
+                while bits <= 1023 && brightness >= two_to(bits) {
                     bits += 1;
                 }
                 let end = 1.0 - f64::from(58 + bits) * std::f64::consts::LN_2 / 100.0;
                 if along * along < end * length_squared(light, way) {
                     continue;
                 }
+            }
+            if self.engine == Plain::Original {
+                let c = unit(way).dot(&direction);
+                sum += light.brightness().get() * libm::exp(-100.0 * (1.0 - c * c));
+                continue;
             }
             let c_squared = along * along / (length_squared(light, way));
             sum += light.brightness().get() * elementary::exp((c_squared - 1.0) * 100.0);
@@ -266,7 +293,7 @@ impl World {
 }
 
 /// 2 to the power `e`, for normal numbers.
-fn libm_scalbn(e: i32) -> f64 {
+fn two_to(e: i32) -> f64 {
     f64::from_bits(((e + 1023) as u64) << 52)
 }
 
@@ -277,11 +304,18 @@ fn length_squared(light: &Light, way: Vector) -> f64 {
     }
 }
 
+fn second_by_arcs(p: Vector) -> bool {
+    let s = p.z;
+    let lat = (2.0 * libm::asin(s).abs()) as i32 + i32::from(s < 0.0);
+    let lon = (2.0 * libm::acos(unit(p - Vector::new(0.0, 0.0, 1.0) * s).x)) as i32;
+    (lat + lon) % 2 != 0
+}
+
 fn second_on_ball(p: Vector) -> bool {
     let s = p.z;
     let mut lat = 0;
     for k in 1..=3_u8 {
-        lat += i32::from(s.abs() >= lancer_math_sine(k));
+        lat += i32::from(s.abs() >= sine_of_half(k));
     }
     if s < 0.0 {
         lat += 1;
@@ -289,18 +323,18 @@ fn second_on_ball(p: Vector) -> bool {
     let c = unit(p - Vector::new(0.0, 0.0, 1.0) * s).x;
     let mut lon = 0;
     for k in 1..=6_u8 {
-        lon += i32::from(c <= lancer_math_cosine(k));
+        lon += i32::from(c <= cosine_of_half(k));
     }
     (lat + lon) % 2 != 0
 }
 
 /// The least double not below sin(k / 2).
-fn lancer_math_sine(k: u8) -> f64 {
+fn sine_of_half(k: u8) -> f64 {
     [0.479_425_538_604_203, 0.841_470_984_807_896_6, 0.997_494_986_604_054_4][usize::from(k) - 1]
 }
 
 /// The largest double not above cos(k / 2).
-fn lancer_math_cosine(k: u8) -> f64 {
+fn cosine_of_half(k: u8) -> f64 {
     [
         0.877_582_561_890_372_6,
         0.540_302_305_868_139_7,

@@ -4,8 +4,9 @@ use fastrand::Rng;
 use lancer_scene::{Camera, Colour, InvalidField, Light, Scene, Shape, Surface};
 
 /// A scene of up to nine spheres, six planes and seven lights, some of them in
-/// awkward places: planes through lamps, lamps behind planes, eyes inside
-/// spheres, perfect mirrors, very bright and very dim lights.
+/// awkward places: planes through lamps and barely below them, lamps behind
+/// planes, eyes inside spheres, perfect mirrors, very bright and very dim
+/// lights.
 ///
 /// # Panics
 /// Never: the values are in range.
@@ -34,6 +35,17 @@ pub fn scene(seed: u64, pixels: [u32; 2]) -> Scene {
     for _ in 0..rng.usize(0..10) {
         let centre = if rng.u8(0..12) == 0 { eye } else { point(rng, 5.0) };
         builder = builder.shape(sphere(rng, centre));
+    }
+    if rng.u8(0..6) == 0 {
+        // A lamp just above a plane, or just below or on it, by anything from
+        // rounding upwards; and far points on another plane to see it from.
+        let height = (rng.f64() - 0.3) / (1_u64 << rng.u8(10..56)) as f64;
+        let plane = [0.0, 0.0, 0.1];
+        let normal = [0.1 * rng.f64(), 0.1 * rng.f64(), 1.0];
+        builder = builder
+            .light(Light::lamp([plane[0], plane[1], plane[2] + height], 1.0))
+            .shape(Shape::plane(plane, normal, surface(rng)))
+            .shape(Shape::plane([0.0, 0.0, -0.1], [0.0, 0.0, 1.0], surface(rng)));
     }
     for _ in 0..rng.usize(0..7) {
         let origin = match lamps.first() {

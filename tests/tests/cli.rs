@@ -345,7 +345,16 @@ mod unix {
             let folder = Folder::new();
             fs::write(folder.path("a.png"), "the old picture").expect("written");
             let mut child = Command::new(env!("CARGO_BIN_EXE_lancer-under-test"))
-                .args(["render", "scene.xml", "-o", "a.png", "--size", "9000x9000"])
+                .args([
+                    "render",
+                    "scene.xml",
+                    "-o",
+                    "a.png",
+                    "--size",
+                    "20000x5000",
+                    "--crop",
+                    "0,0,9,9",
+                ])
                 .current_dir(folder.0.path())
                 .stderr(Stdio::piped())
                 .spawn()

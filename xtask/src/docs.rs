@@ -4,7 +4,7 @@ use crate::{Failure, fail};
 use lancer_scene::Colour;
 use lancer_tests::paths;
 use lancer_xml::schema::{ELEMENTS, Element, Times};
-use lancer_xml::{DEEPEST, MAX_PIXELS};
+use lancer_xml::{DEEPEST, MAX_PIXELS, MOST_ATTRIBUTES, MOST_NODES};
 use std::fmt::Write;
 use std::fs;
 
@@ -16,7 +16,7 @@ const HEAD: &str = "\
 A scene is an XML file in UTF-8. Its root is `<world>`, which holds one `<camera>`, one `<lights>`
 and one `<shapes>`. Lengths are all in the same unit, whichever that is; z is up. Numbers are
 decimal (`1`, `-0.5`, `2e3`) and finite. What is not listed here is an error, and `lancer check`
-reports all errors of a file at once.
+reports the errors of a file at once, up to the first that leaves the XML without form.
 ";
 
 /// Writes the reference, or says whether it is up to date.
@@ -48,7 +48,8 @@ fn reference() -> String {
         "\n## Limits\n\n\
          - A picture may have up to {MAX_PIXELS} pixels; `--max-pixels` sets another limit.\n\
          - Document type declarations and entities other than XML's own five are refused.\n\
-         - Elements may be nested {DEEPEST} levels deep.\n"
+         - Elements may be nested {DEEPEST} levels deep, and one may have {MOST_ATTRIBUTES} attributes.\n\
+         - A file may have {MOST_NODES} elements, texts and comments.\n"
     );
     page
 }

@@ -11,7 +11,6 @@ pub(crate) fn regenerate(names: &[String]) -> Result<(), Failure> {
     if std::env::var_os("CI").is_some() {
         return Err(fail("goldens are blessed by people who look at them, not where CI is set"));
     }
-    // A picture that belongs to nothing is what one may be here to mend.
     let goldens = golden::all().map_err(|problems| {
         for problem in &problems {
             eprintln!("{problem}");
@@ -51,7 +50,9 @@ pub(crate) fn regenerate(names: &[String]) -> Result<(), Failure> {
                     golden::MOST_BYTES
                 )));
             }
-            fs::write(golden.path(), actual).map_err(fail)?;
+            let path = golden.path();
+            fs::create_dir_all(path.parent().unwrap_or(&path)).map_err(fail)?;
+            fs::write(path, actual).map_err(fail)?;
         }
     }
     Ok(())

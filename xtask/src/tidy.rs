@@ -31,12 +31,12 @@ pub(crate) fn run() -> Result<(), Failure> {
 fn problems() -> Result<Vec<String>, Failure> {
     let metadata = MetadataCommand::new()
         .manifest_path(paths::top().join("Cargo.toml"))
-        .other_options(["--locked".to_owned(), "--offline".to_owned()])
+        .no_deps()
         .exec()
         .map_err(fail)?;
     let mut problems = Vec::new();
     arrows(&metadata, &mut problems)?;
-    barred(&metadata, &mut problems);
+    barred(&mut problems)?;
     manifests(&metadata, &mut problems)?;
     sources(&mut problems)?;
     readme(&mut problems)?;
@@ -85,30 +85,37 @@ fn arrows(metadata: &Metadata, problems: &mut Vec<String>) -> Result<(), Failure
     Ok(())
 }
 
-fn barred(metadata: &Metadata, problems: &mut Vec<String>) {
-    let Some(resolve) = &metadata.resolve else { return };
+/// What a crate pulls in, whether directly or not, by the lock file.
+fn barred(problems: &mut Vec<String>) -> Result<(), Failure> {
+    let lock = fs::read_to_string(paths::top().join("Cargo.lock")).map_err(fail)?;
+    let lock: toml::Table = lock.parse().map_err(fail)?;
+    let packages = lock.get("package").and_then(toml::Value::as_array);
+    let packages = packages.ok_or_else(|| fail("Cargo.lock lists no packages"))?;
+    let name_of = |package: &toml::Value| {
+        package.get("name").and_then(toml::Value::as_str).unwrap_or_default().to_owned()
+    };
     for (name, barred) in BARRED {
-        let Some(package) = own(metadata).into_iter().find(|p| p.name.as_str() == *name) else {
-            problems.push(format!("there is no crate {name}"));
-            continue;
-        };
-        let mut reached = BTreeSet::new();
-        let mut open = vec![package.id.clone()];
-        while let Some(id) = open.pop() {
-            let Some(node) = resolve.nodes.iter().find(|node| node.id == id) else { continue };
-            for dep in &node.deps {
-                let normal = dep.dep_kinds.iter().any(|k| k.kind == DependencyKind::Normal);
-                if normal && reached.insert(dep.pkg.clone()) {
-                    open.push(dep.pkg.clone());
+        let (mut reached, mut open) = (BTreeSet::new(), vec![(*name).to_owned()]);
+        while let Some(next) = open.pop() {
+            for package in packages.iter().filter(|package| name_of(package) == next) {
+                let dependencies = package.get("dependencies").and_then(toml::Value::as_array);
+                // "name", or "name version" where there are several.
+                let names = dependencies.into_iter().flatten().filter_map(toml::Value::as_str);
+                for name in names.filter_map(|entry| entry.split(' ').next()) {
+                    if reached.insert(name.to_owned()) {
+                        open.push(name.to_owned());
+                    }
                 }
             }
         }
-        for package in metadata.packages.iter().filter(|p| reached.contains(&p.id)) {
-            if barred.contains(&package.name.as_str()) {
-                problems.push(format!("{name} must not pull in {}", package.name));
-            }
+        if reached.is_empty() {
+            problems.push(format!("Cargo.lock knows nothing of {name}"));
+        }
+        for name_reached in barred.iter().filter(|barred| reached.contains(**barred)) {
+            problems.push(format!("{name} must not pull in {name_reached}"));
         }
     }
+    Ok(())
 }
 
 /// Shared lints in each manifest; `unsafe` forbidden and a doc in each crate.
@@ -131,7 +138,7 @@ fn manifests(metadata: &Metadata, problems: &mut Vec<String>) -> Result<(), Fail
                 problems.push(format!("{}: has no crate-level doc", target.src_path));
             }
             let product = package.manifest_path.as_str().contains("/crates/");
-            if target.is_lib() && product && !root.contains("//! ```\n") {
+            if target.is_lib() && product && !root.contains("//! ```\n//! ") {
                 problems.push(format!("{}: its doc has no example to run", target.src_path));
             }
         }
@@ -139,21 +146,16 @@ fn manifests(metadata: &Metadata, problems: &mut Vec<String>) -> Result<(), Fail
     Ok(())
 }
 
-/// Words that must not be left in a source file. Put together here, so that
-/// this file does not hold them.
-fn leftovers() -> [String; 5] {
-    ["todo!(", "dbg!(", "unimplemented!(", "FIXME", "#[ignore"].map(|word| {
-        let (head, tail) = word.split_at(2);
-        format!("{head}{tail}")
-    })
-}
+/// What must not be left in a source file.
+const LEFTOVERS: &[&str] = &["todo!(", "dbg!(", "unimplemented!(", "FIXME", "#[ignore"];
 
 fn sources(problems: &mut Vec<String>) -> Result<(), Failure> {
     let mut files = Vec::new();
     for folder in ["crates", "tests", "xtask"] {
         collect(&paths::top().join(folder), &mut files)?;
     }
-    let this = Path::new(file!()).file_name();
+    // This file names them.
+    let this = paths::top().join(file!());
     for file in files {
         let text = fs::read_to_string(&file).map_err(fail)?;
         let name = file.strip_prefix(paths::top()).unwrap_or(&file).display().to_string();
@@ -161,11 +163,11 @@ fn sources(problems: &mut Vec<String>) -> Result<(), Failure> {
         if lines > MOST_LINES {
             problems.push(format!("{name}: {lines} lines; is there a second subject in it?"));
         }
-        if file.file_name() == this {
+        if file == this {
             continue;
         }
-        for word in leftovers() {
-            if text.contains(&word) {
+        for word in LEFTOVERS {
+            if text.contains(word) {
                 problems.push(format!("{name}: has `{word}`"));
             }
         }
@@ -190,6 +192,10 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), Failure> {
 /// that it takes and scenes that are there.
 fn readme(problems: &mut Vec<String>) -> Result<(), Failure> {
     let text = fs::read_to_string(paths::top().join("README.md")).map_err(fail)?;
+    let first = fs::read_to_string(paths::scenes().join("first.xml")).map_err(fail)?;
+    if !text.contains(&first) {
+        problems.push("README.md: its scene is not scenes/first.xml".to_owned());
+    }
     let commands: Vec<&str> = text
         .split("```sh\n")
         .skip(1)

@@ -97,6 +97,10 @@ pub struct CheckArgs {
     #[arg(required = true, value_name = "SCENE")]
     pub scenes: Vec<PathBuf>,
 
+    /// The engine whose warnings to report
+    #[arg(long, default_value = "classic", value_parser = engine_parser())]
+    pub engine: EngineName,
+
     /// Say nothing but warnings and errors
     #[arg(short, long)]
     pub quiet: bool,

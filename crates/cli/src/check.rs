@@ -21,6 +21,11 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
         let parsed = lancer_xml::parse(&bytes, &options);
         let tally = report::show(&name, &parsed, false);
         failed |= tally.errors > 0;
+        if let Some(scene) = &parsed.scene {
+            for warning in args.engine.engine().warnings(scene) {
+                report::say(format_args!("warning: {name}: {warning}"));
+            }
+        }
         if args.quiet {
             continue;
         }

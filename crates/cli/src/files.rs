@@ -63,6 +63,11 @@ impl Target {
             Err(e) if e.kind() != io::ErrorKind::NotFound => return Err(e.to_string()),
             Err(_) => {}
         }
+        // A link to a file that is not there yet; chains of them end somewhere,
+        // or `metadata` would have failed in another way.
+        if let Ok(link) = fs::read_link(path) {
+            return Self::look_at(&folder_of(path).join(link));
+        }
         match fs::metadata(folder_of(path)) {
             Ok(folder) if folder.is_dir() => Ok(Kind::File(path.to_owned())),
             _ => Err(format!("there is no folder {}", folder_of(path).display())),

@@ -11,6 +11,7 @@ use lancer_output::{Format, encode, to_rgb8};
 use lancer_scene::{PixelCount, Scene};
 use lancer_xml::Options;
 use std::io::IsTerminal;
+use std::sync::atomic::Ordering;
 
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let outputs = Outputs::new(args)?;
@@ -35,6 +36,9 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     if let Some((target, format)) = &outputs.picture {
         let bytes = encode(&rendered.film, *format, args.bits).map_err(Failure::work)?;
         seconds.encode = stopwatch.lap();
+        if interrupt::watch().load(Ordering::Relaxed) {
+            return Err(interrupted());
+        }
         target.write(&bytes)?;
         seconds.write = stopwatch.lap();
     }
@@ -192,9 +196,13 @@ fn draw(scene: &Scene, args: &RenderArgs, outputs: &Outputs) -> Result<Rendered,
     let result = render(scene, args.engine.engine(), &settings);
     bar.finish_and_clear();
     result.map_err(|error| match error {
-        RenderError::Interrupted => Failure::work("interrupted; no picture was written"),
+        RenderError::Interrupted => interrupted(),
         other => Failure::work(other),
     })
+}
+
+fn interrupted() -> Failure {
+    Failure::work("interrupted; no picture was written")
 }
 
 fn progress_bar(args: &RenderArgs) -> ProgressBar {

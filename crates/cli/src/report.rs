@@ -14,6 +14,9 @@ pub(crate) fn say(line: fmt::Arguments<'_>) {
     let _ = writeln!(std::io::stderr(), "{line}");
 }
 
+/// Nobody reads more diagnostics of one file.
+const MOST_SHOWN: usize = 1000;
+
 /// How many errors and warnings were reported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Tally {
@@ -50,8 +53,13 @@ pub(crate) fn show(name: &str, parsed: &Parsed, quiet: bool) -> Tally {
     let least = if quiet { Severity::Error } else { Severity::Warning };
     let text = Printable::new(name, &parsed.source);
     let handler = GraphicalReportHandler::new_themed(theme()).with_links(false).with_width(100);
-    for diagnostic in parsed.diagnostics.iter().filter(|d| d.severity >= least) {
+    let mut shown = parsed.diagnostics.iter().filter(|d| d.severity >= least);
+    for diagnostic in shown.by_ref().take(MOST_SHOWN) {
         let _ = std::io::stderr().write_all(render(&handler, diagnostic, &text).as_bytes());
+    }
+    match shown.count() {
+        0 => {}
+        more => say(format_args!("... and {more} more like these\n")),
     }
     tally
 }
@@ -142,18 +150,27 @@ struct Printable {
 /// many of a long place.
 const MOST_BYTES: usize = 80;
 
+/// Neither a control character nor one that changes the direction of the text
+/// around it.
+fn is_printable(c: char) -> bool {
+    !c.is_control()
+        && !matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
 impl Printable {
     fn new(name: &str, source: &Source) -> Self {
-        let printable = |c: char| !c.is_control() || matches!(c, '\n' | '\t' | '\r');
         let mut text = String::with_capacity(source.text().len());
-        for c in source.text().chars() {
-            if printable(c) {
+        let mut rest = source.text().chars();
+        while let Some(c) = rest.next() {
+            let line_end = c == '\r' && rest.as_str().starts_with('\n');
+            if line_end || matches!(c, '\n' | '\t') || is_printable(c) {
                 text.push(c);
             } else {
                 text.extend(std::iter::repeat_n('?', c.len_utf8()));
             }
         }
-        Self { name: name.to_owned(), source: source.clone(), text }
+        let name = name.chars().map(|c| if is_printable(c) { c } else { '?' }).collect();
+        Self { name, source: source.clone(), text }
     }
 
     /// A span that is inside the text and not too long.

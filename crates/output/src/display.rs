@@ -35,9 +35,9 @@ pub(crate) fn codes16(film: &Film) -> Result<Vec<u16>, PeakUnknown> {
 }
 
 /// Linear values, 1 being display white, for each component, row by row.
-pub(crate) fn linear(film: &Film) -> Vec<f32> {
+pub(crate) fn linear(film: &Film) -> impl Iterator<Item = f32> {
     let white = film.display().white();
-    film.pixels().iter().flatten().map(|v| v / white).collect()
+    film.pixels().iter().flatten().map(move |v| v / white)
 }
 
 /// The film as a display of 8 bits shows it.
@@ -71,7 +71,7 @@ mod tests {
         let film = film(&[[0.0, 0.999, 1.0], [254.999, 127.5, 3.0]]);
         assert_eq!(codes8(&film), Ok(vec![0, 0, 1, 254, 127, 3]));
         assert_eq!(codes16(&film), Ok(vec![0, 256, 257, 65534, 32767, 771]));
-        assert_eq!(linear(&film)[2], 1.0 / 255.0);
+        assert_eq!(linear(&film).nth(2), Some(1.0 / 255.0));
     }
 
     #[test]

@@ -38,7 +38,7 @@ const JPEG_QUALITY: u8 = 95;
 pub fn encode(film: &Film, format: Format, bits: Bits) -> Result<Vec<u8>, EncodeError> {
     let size = (film.window().width, film.window().height);
     if format.is_linear() {
-        let bytes: Vec<u8> = linear(film).into_iter().flat_map(f32::to_ne_bytes).collect();
+        let bytes: Vec<u8> = linear(film).flat_map(f32::to_ne_bytes).collect();
         return write(format, &bytes, size, ExtendedColorType::Rgb32F);
     }
     match bits {

@@ -70,10 +70,4 @@ impl Camera {
     pub const fn target(&self) -> Position {
         self.target
     }
-
-    /// How many pixels the picture has.
-    #[must_use]
-    pub const fn pixels(&self) -> u64 {
-        self.px_width.get() as u64 * self.px_height.get() as u64
-    }
 }

@@ -3,8 +3,8 @@ use std::fmt;
 
 /// A shape of the user's own, for [`Geometry::Custom`](crate::Geometry::Custom).
 ///
-/// The surface may be open or closed and is lit and hit from both sides,
-/// unless [`nearest`](Self::nearest) chooses to leave hits out.
+/// The surface may be open or closed. It is seen from both sides, unless
+/// [`nearest`](Self::nearest) leaves hits out, and lit on the side that is seen.
 pub trait CustomShape: fmt::Debug + Send + Sync {
     /// Its name in dumps.
     fn name(&self) -> &str;
@@ -17,7 +17,7 @@ pub trait CustomShape: fmt::Debug + Send + Sync {
     /// distance gave, with no offset.
     fn nearest(&self, ray: &Ray) -> Option<f64>;
 
-    /// The unit normal at `point` of the surface, on the side that is lit.
+    /// The unit normal at `point` of the surface, on either side.
     fn normal(&self, point: &Point) -> Vector;
 
     /// Whether `point` shows the second colour of a checker.

@@ -3,12 +3,17 @@
 use crate::element::shorten;
 use crate::{Diagnostic, Source};
 use roxmltree::{Document, Error, ParsingOptions};
+use std::ops::Range;
 
 /// How deeply elements may be nested. The language itself needs four levels.
 pub const DEEPEST: usize = 100;
 
 /// How many elements, texts and comments a file may have.
-pub const MOST_NODES: u32 = 50_000_000;
+pub const MOST_NODES: u32 = 20_000_000;
+
+/// How many attributes one element may have. The parser compares each with
+/// each; the language itself needs four.
+pub const MOST_ATTRIBUTES: usize = 1000;
 
 /// The text of a file; where it is not UTF-8, a replacement and why.
 pub(crate) fn decode(bytes: &[u8]) -> (Source, Option<Diagnostic>) {
@@ -29,26 +34,106 @@ pub(crate) fn decode(bytes: &[u8]) -> (Source, Option<Diagnostic>) {
     (source, Some(diagnostic.help(help)))
 }
 
-/// The XML tree of `source`.
-pub(crate) fn tree(source: &Source) -> Result<Document<'_>, Box<Diagnostic>> {
-    let options = ParsingOptions { nodes_limit: MOST_NODES, ..ParsingOptions::default() };
-    let document = Document::parse_with_options(source.text(), options)
-        .map_err(|error| Box::new(explain(&error, source)))?;
-    match too_deep(&document) {
-        None => Ok(document),
-        Some(node) => Err(Box::new(
-            Diagnostic::error(
-                start_of(&node),
-                format!("elements are nested more than {DEEPEST} levels deep"),
-                "this one is too deep",
-            )
-            .help("a scene needs four levels: world, lights, lamp, point".to_owned()),
-        )),
+/// Why a text is no XML tree.
+#[derive(Debug)]
+pub(crate) struct NoTree {
+    pub(crate) diagnostic: Diagnostic,
+    /// The bytes without which it may be one: blanked out, they let the rest
+    /// of the mistakes be found.
+    pub(crate) mend: Option<Range<usize>>,
+}
+
+impl From<Diagnostic> for Box<NoTree> {
+    fn from(diagnostic: Diagnostic) -> Self {
+        Self::new(NoTree { diagnostic, mend: None })
     }
 }
 
+/// The XML tree of `text`, which is the source's text but for bytes that were
+/// blanked out.
+pub(crate) fn tree<'t>(text: &'t str, source: &Source) -> Result<Document<'t>, Box<NoTree>> {
+    if let Some(tag) = crowded_tag(text) {
+        return Err(Diagnostic::error(
+            tag,
+            format!("an element has more than {MOST_ATTRIBUTES} attributes"),
+            "this one",
+        )
+        .into());
+    }
+    let options = ParsingOptions { nodes_limit: MOST_NODES, ..ParsingOptions::default() };
+    let document = Document::parse_with_options(text, options).map_err(|error| {
+        let diagnostic = explain(&error, text, source);
+        let mend = mendable(&error, text, &diagnostic);
+        Box::new(NoTree { diagnostic, mend })
+    })?;
+    match too_deep(&document) {
+        None => Ok(document),
+        Some(node) => Err(Diagnostic::error(
+            start_of(&node),
+            format!("elements are nested more than {DEEPEST} levels deep"),
+            "this one is too deep",
+        )
+        .help("a scene needs four levels: world, lights, lamp, point".to_owned())
+        .into()),
+    }
+}
+
+/// What to blank out so that mistakes behind this one are found, too.
+fn mendable(error: &Error, text: &str, diagnostic: &Diagnostic) -> Option<Range<usize>> {
+    let at = diagnostic.span.start;
+    match error {
+        Error::DuplicatedAttribute(..) => {
+            let quote = at + text[at..].find(['"', '\''])?;
+            let mark = text[quote..].chars().next()?;
+            let end = quote + 1 + text[quote + 1..].find(mark)? + 1;
+            Some(at..end)
+        }
+        Error::UnknownEntityReference(..) | Error::NonXmlChar(..) => Some(diagnostic.span.clone()),
+        _ => None,
+    }
+    .filter(|mend| !mend.is_empty())
+}
+
+/// The beginning of the first tag with too many attributes.
+fn crowded_tag(text: &str) -> Option<Range<usize>> {
+    let mut rest = 0;
+    while let Some(open) = text[rest..].find('<').map(|i| rest + i) {
+        // Comments and the like may hold anything.
+        let skip = [("<!--", "-->"), ("<![CDATA[", "]]>"), ("<?", "?>")]
+            .into_iter()
+            .find(|(begin, _)| text[open..].starts_with(begin));
+        if let Some((begin, end)) = skip {
+            let inside = open + begin.len();
+            rest = inside + text[inside..].find(end)? + end.len();
+            continue;
+        }
+        let (mut quote, mut values, mut close) = (None, 0, text.len());
+        for (i, byte) in text.bytes().enumerate().skip(open + 1) {
+            match (quote, byte) {
+                (Some(mark), _) if mark == byte => quote = None,
+                (Some(_), _) => {}
+                (None, b'"' | b'\'') => {
+                    quote = Some(byte);
+                    values += 1;
+                }
+                (None, b'>') => {
+                    close = i;
+                    break;
+                }
+                (None, _) => {}
+            }
+        }
+        if values > MOST_ATTRIBUTES {
+            let name = text[open..].find(char::is_whitespace).unwrap_or(1);
+            return Some(open..open + name);
+        }
+        rest = close;
+    }
+    None
+}
+
 /// The first bytes of an element: `<` and its name.
-pub(crate) fn start_of(node: &roxmltree::Node<'_, '_>) -> std::ops::Range<usize> {
+pub(crate) fn start_of(node: &roxmltree::Node<'_, '_>) -> Range<usize> {
     let range = node.range();
     let text = node.document().input_text();
     let name = text[range.clone()]
@@ -72,8 +157,7 @@ fn too_deep<'a, 'i>(document: &'a Document<'i>) -> Option<roxmltree::Node<'a, 'i
 }
 
 /// What a parser's error means and what to do about it.
-fn explain(error: &Error, source: &Source) -> Diagnostic {
-    let text = source.text();
+fn explain(error: &Error, text: &str, source: &Source) -> Diagnostic {
     let position = error.pos();
     let at = source.offset(position.row as usize, position.col as usize);
     let char_at = |at: usize| at..at + text[at..].chars().next().map_or(0, char::len_utf8);
@@ -130,10 +214,17 @@ fn explain(error: &Error, source: &Source) -> Diagnostic {
                 None => diagnostic,
             }
         }
-        Error::UnknownEntityReference(name, _) => error_at(
-            &format!("`&{};` is not defined", shorten(name)),
-            "XML knows `&lt;` `&gt;` `&amp;` `&quot;` `&apos;`",
-        ),
+        Error::UnknownEntityReference(name, _) => {
+            let mut diagnostic = error_at(
+                &format!("`&{};` is not defined", shorten(name)),
+                "XML knows `&lt;` `&gt;` `&amp;` `&quot;` `&apos;`",
+            );
+            let reference = format!("&{name};");
+            if let Some(start) = text[at..].find(&reference).map(|i| at + i) {
+                diagnostic.span = start..start + reference.len();
+            }
+            diagnostic
+        }
         Error::MalformedEntityReference(_) => {
             error_at("`&` begins an entity", "not followed by a name and `;`")
                 .help("write `&amp;` for the character itself".to_owned())

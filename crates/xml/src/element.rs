@@ -109,8 +109,8 @@ impl<'a, 'i> Reader<'a, 'i> {
                 }
             } else if node.is_text() && !trim(node.text().unwrap_or_default()).is_empty() {
                 let text = &node.document().input_text()[node.range()];
-                let start = node.range().start + text.len() - text.trim_start().len();
-                let line = text.trim_start().lines().next().unwrap_or_default().trim_end();
+                let start = node.range().start + text.find(trim(text)).unwrap_or(0);
+                let line = trim(trim(text).lines().next().unwrap_or_default());
                 out.push(Diagnostic::error(
                     start..start + line.len(),
                     format!("text inside <{}>", self.element.name),

@@ -1,9 +1,9 @@
 //! The scene language: XML text to a [`Scene`](lancer_scene::Scene) or a list
 //! of diagnostics, each with its place, what was expected and what to do.
 //!
-//! All mistakes of a file are found in one go, except that a file that is not
-//! well-formed XML has one, because nothing after it could be trusted. This
-//! crate opens no file and prints nothing.
+//! All mistakes of a file are found in one go, up to the first that leaves the
+//! XML without form (a tag that is not closed, say), because nothing after that
+//! could be trusted. This crate opens no file and prints nothing.
 //!
 //! ```
 //! let text = r#"<world>
@@ -46,6 +46,6 @@ mod suggest;
 mod world;
 
 pub use diagnostic::{Diagnostic, Severity};
-pub use document::{DEEPEST, MOST_NODES};
+pub use document::{DEEPEST, MOST_ATTRIBUTES, MOST_NODES};
 pub use source::Source;
 pub use world::{InvalidFile, MAX_PIXELS, Options, Parsed, parse};

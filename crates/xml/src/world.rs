@@ -75,17 +75,30 @@ pub fn parse(bytes: &[u8], options: &Options) -> Parsed {
         diagnostics.push(diagnostic);
         None
     } else {
-        match tree(&source) {
-            Ok(document) => world(document.root_element(), options, &mut diagnostics),
-            Err(diagnostic) => {
-                diagnostics.push(*diagnostic);
-                None
-            }
-        }
+        mended_world(&source, options, &mut diagnostics)
     };
     diagnostics.sort_by_key(|diagnostic| diagnostic.span.start);
     let scene = scene.filter(|_| diagnostics.iter().all(|d| d.severity != Severity::Error));
     Parsed { source, diagnostics, scene }
+}
+
+/// How many mistakes are blanked out to find those behind them.
+const MOST_MENDED: usize = 50;
+
+/// The scene, found even where the XML has mistakes that can be left out.
+fn mended_world(source: &Source, options: &Options, out: Out<'_>) -> Option<Scene> {
+    let mut text = std::borrow::Cow::Borrowed(source.text());
+    for _ in 0..MOST_MENDED {
+        let problem = match tree(&text, source) {
+            Ok(document) => return world(document.root_element(), options, out),
+            Err(problem) => *problem,
+        };
+        out.push(problem.diagnostic);
+        let mend = problem.mend?;
+        let blank = " ".repeat(mend.len());
+        text.to_mut().replace_range(mend, &blank);
+    }
+    None
 }
 
 type Node<'a, 'i> = roxmltree::Node<'a, 'i>;

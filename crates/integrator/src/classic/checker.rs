@@ -59,3 +59,50 @@ fn cell_is_odd(i: f64) -> bool {
     let odd = size < 2_147_483_648.0 && (size as u32) % 2 == 1;
     odd != (i < 0.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn borders_are_where_the_sines_and_cosines_are() {
+        for (k, border) in (1_u8..).zip(SINES) {
+            let sine = libm::sin(f64::from(k) / 2.0);
+            assert!((border - sine).abs() <= f64::EPSILON, "sin {k}/2");
+        }
+        for (k, border) in (1_u8..).zip(COSINES) {
+            let cosine = libm::cos(f64::from(k) / 2.0);
+            assert!((border - cosine).abs() <= f64::EPSILON, "cos {k}/2");
+        }
+    }
+
+    #[test]
+    fn cells_are_those_of_the_arcs() {
+        let mut state = 7_u64;
+        let mut next = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        };
+        for case in 0..100_000 {
+            let normal = naive_unit(Vector::new(next(), next(), next()));
+            let latitude = (2.0 * libm::asin(normal.z).abs()) as i32 + i32::from(normal.z < 0.0);
+            let turned = naive_unit(Vector::new(normal.x, normal.y, 0.0));
+            let longitude = (2.0 * libm::acos(turned.x)) as i32;
+            assert_eq!(on_sphere(normal), (latitude + longitude) % 2 == 1, "case {case}");
+        }
+    }
+
+    #[test]
+    fn cells_of_a_plane_alternate_and_do_not_overflow() {
+        let axes = axes_on_plane(Vector::z());
+        for (i, j) in [(0.5, 0.5), (3.2, -7.9), (-0.1, -0.1), (-2.5, 4.5)] {
+            let at = |i: f64, j: f64| on_plane(axes[0] * i + axes[1] * j, &axes);
+            assert_ne!(at(i, j), at(i + 1.0, j), "{i} {j}");
+            assert_ne!(at(i, j), at(i, j - 1.0), "{i} {j}");
+            assert_eq!(at(i, j), at(i + 1.0, j + 1.0), "{i} {j}");
+        }
+        for far in [1e10, 1e100, f64::INFINITY, f64::NAN] {
+            assert!(!cell_is_odd(far));
+        }
+    }
+}

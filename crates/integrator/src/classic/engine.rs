@@ -50,7 +50,7 @@ struct ClassicTracer {
 const LEAST_SHARE: f64 = 0.01;
 
 /// How many mirrors a ray is followed through.
-const DEEPEST: u32 = 3;
+const MOST_MIRRORS: u32 = 4;
 
 impl Tracer for ClassicTracer {
     fn pixel(&self, x: u32, y: u32, counts: &mut RayCounts) -> Rgb {
@@ -95,14 +95,14 @@ impl ClassicTracer {
         let Some(hit) = hit else { return [glow; 3] };
         let surface = self.world.expand(ray, hit);
         let gloss = surface.gloss;
-        if gloss == 0.0 || f64::from(share) < LEAST_SHARE || depth > DEEPEST {
+        if gloss == 0.0 || f64::from(share) < LEAST_SHARE || depth >= MOST_MIRRORS {
             let light = self.lighting.gather(&self.world, &surface, true, None, counts);
             return surface.colour.map(|c| c * light.lit + glow);
         }
 
         let mirrored = Ray::new(surface.point, reflect(ray.direction, surface.normal));
         // What a perfect mirror adds of its own is 0 times a finite number.
-        let want_own = !(gloss == 1.0 && self.own_colour_is_finite);
+        let want_own = !(gloss == 1.0 && self.own_colour_is_finite && glow.is_finite());
         let light = self.lighting.gather(
             &self.world,
             &surface,

@@ -41,12 +41,6 @@ impl Vectors {
         Vector::new(self.x.to_array()[k], self.y.to_array()[k], self.z.to_array()[k])
     }
 
-    /// The same vector in each lane.
-    #[inline(always)]
-    pub(super) fn splat(v: Vector) -> Self {
-        Self { x: f64x4::splat(v.x), y: f64x4::splat(v.y), z: f64x4::splat(v.z) }
-    }
-
     /// Made as long as 1, as `naive_unit` does it.
     #[inline(always)]
     pub(super) fn naive_unit(&self) -> Self {

@@ -225,9 +225,11 @@ const GLOW_STEEPNESS: f64 = 100.0;
 
 /// The square of the cosine from which on a light of that brightness glows.
 ///
-/// The glow is taken as nothing where it would be less than 2^-50 of a code of
-/// an 8-bit picture. Added in single precision, that little changes no bit of
-/// a component of 2^-25 or more, and all that is smaller is shown as 0.
+/// The original's glow has no end. Here, by definition, it is nothing where it
+/// would be less than 2^-50 of a code of an 8-bit picture. In pictures of 8
+/// and 16 bits that cannot be seen, but for a sum that lies on a tie of rounding:
+/// added in single precision it changes no bit of a component of 2^-25 or more,
+/// and smaller ones are shown as 0. Formats with linear values hold 0 for it.
 fn glow_from(brightness: f64) -> f64 {
     // brightness < 2^bits, and 255 < 2^8.
     let bits = (brightness.to_bits() >> 52) as i32 - 1022;

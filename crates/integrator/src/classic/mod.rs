@@ -14,38 +14,78 @@ mod sphere;
 pub(crate) mod world;
 
 use lancer_math::Vector;
-use lancer_scene::{Geometry, Scene};
+use lancer_scene::{Geometry, Light, Scene};
 
 /// The original's normalisation: components divided by the root of the sum of
-/// their squares. NaN for zero and for what is too small or too large to be
-/// squared, unlike [`lancer_math::unit`].
+/// their squares. Not a unit vector for zero and for what is too small or too
+/// large to be squared, unlike [`lancer_math::unit`].
 #[inline]
 fn naive_unit(v: Vector) -> Vector {
     v / v.norm()
 }
+
+/// Whether [`naive_unit`] gives a unit vector.
+fn can_be_squared(v: Vector) -> bool {
+    v.norm_squared().is_normal()
+}
+
+/// Coordinates and radii up to this, and down to its inverse, are far enough
+/// from the ends of double precision for fourth powers, which shadows take.
+const LARGEST: f64 = 1e70;
 
 /// What looks wrong in this scene because the original computes it so.
 pub(crate) fn warnings(scene: &Scene) -> Vec<String> {
     let mut warnings = Vec::new();
     let camera = &scene.camera;
     let axis = camera.target().get() - camera.origin().get();
-    if !camera::horizontal(naive_unit(axis)).iter().all(|c| c.is_finite()) {
+    let can_look = can_be_squared(axis) && camera::horizontal(naive_unit(axis)).x.is_finite();
+    if !can_look {
         warnings.push(
-            "the camera looks straight up or down, for which this engine has no horizontal \
-             direction: the picture will be black; move the target sideways a little"
+            "the camera looks straight up or down, or its target is too near or too far to be \
+             squared; for that this engine has no horizontal direction, and the picture will be \
+             black: move the target sideways a little"
                 .to_owned(),
         );
     }
-    for (i, shape) in scene.shapes.iter().enumerate() {
-        if let Geometry::Plane(plane) = &shape.geometry
-            && !naive_unit(plane.normal.get()).iter().all(|c| c.is_finite())
-        {
-            warnings.push(format!(
-                "the normal of shape {} is too long or too short for this engine to square: the \
-                 plane will look black; scale the normal to about 1",
-                i + 1
-            ));
+    let mut sizes = vec![camera.origin().get().coords.amax(), camera.target().get().coords.amax()];
+    for (i, light) in scene.lights.iter().enumerate() {
+        match light {
+            Light::Lamp { point, .. } => sizes.push(point.get().coords.amax()),
+            Light::Sun { direction, .. } if !can_be_squared(direction.get()) => {
+                warnings.push(format!(
+                    "the direction of light {} is too long or too short for this engine to \
+                     square, and it will not shine: scale it to about 1",
+                    i + 1
+                ));
+            }
+            Light::Sun { .. } => {}
         }
+    }
+    for (i, shape) in scene.shapes.iter().enumerate() {
+        match &shape.geometry {
+            Geometry::Plane(plane) => {
+                sizes.push(plane.origin.get().coords.amax());
+                if !can_be_squared(plane.normal.get()) {
+                    warnings.push(format!(
+                        "the normal of shape {} is too long or too short for this engine to \
+                         square, and the plane will not be seen: scale it to about 1",
+                        i + 1
+                    ));
+                }
+            }
+            Geometry::Sphere(sphere) => {
+                let radius = sphere.radius.get();
+                sizes.extend([sphere.centre.get().coords.amax(), radius, 1.0 / radius]);
+            }
+            Geometry::Custom(_) => {}
+        }
+    }
+    if sizes.iter().any(|size| *size > LARGEST) {
+        warnings.push(format!(
+            "there are coordinates above {LARGEST:e} or radii outside of {:e} to {LARGEST:e}, for \
+             which this engine's squares leave the range of numbers: scale the scene",
+            1.0 / LARGEST
+        ));
     }
     warnings
 }

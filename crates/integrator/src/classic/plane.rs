@@ -79,10 +79,12 @@ impl Halves {
         let slope = self.normals.dot(&ray.direction);
         let height = self.normals.dot(&ray.origin.coords);
         let to_plane = self.offsets - height;
-        // Those that are near for sure or by rounding, without dividing: not
+        // Those that are near for sure or by rounding, without dividing (the
+        // smallest normal number is for products that underflow): not
         // those whose square is at least `bound`. NaN counts as near, and the
         // caller compares the distance itself.
-        let far = (to_plane * to_plane).simd_ge(slope * slope * (bound * ROUNDED_UP));
+        let far =
+            (to_plane * to_plane).simd_gt(slope * slope * (bound * ROUNDED_UP) + f64::MIN_POSITIVE);
         let bits = slope.simd_lt(f64x4::ZERO).to_bitmask() & !far.to_bitmask();
         if bits != 0 {
             let distance = (to_plane / slope).to_array();

@@ -166,7 +166,10 @@ impl World {
             (plane.normal, checked && plane.shows_second_colour(&point))
         } else {
             let custom = &self.customs[custom];
-            (custom.normal(&point), checked && custom.shows_second_colour(&point))
+            let normal = custom.normal(&point);
+            // Lit on the side that is seen.
+            let normal = if normal.dot(&ray.direction) > 0.0 { -normal } else { normal };
+            (normal, checked && custom.shows_second_colour(&point))
         };
         let colour = look.second.filter(|_| shows_second).unwrap_or(look.colour);
         SurfacePoint { point, normal, colour, gloss: look.gloss, shape: look.shape }
