@@ -8,6 +8,7 @@ use lancer_scene::{
     Brightness, Camera, Colour, Direction, Geometry, Gloss, Length, Light, OutOfRange, Pattern,
     PixelCount, Plane, Position, Scene, Shape, Sphere, Surface,
 };
+use std::ops::Range;
 
 /// The pixel budget of [`Options::default`]: a picture may have so many.
 pub const MAX_PIXELS: u64 = 100_000_000;
@@ -88,15 +89,25 @@ const MOST_MENDED: usize = 50;
 /// The scene, found even where the XML has mistakes that can be left out.
 fn mended_world(source: &Source, options: &Options, out: Out<'_>) -> Option<Scene> {
     let mut text = std::borrow::Cow::Borrowed(source.text());
-    for _ in 0..MOST_MENDED {
+    let mut mended: Vec<Range<usize>> = Vec::new();
+    for _ in 0..=MOST_MENDED {
         let problem = match tree(&text, source) {
-            Ok(document) => return world(document.root_element(), options, out),
+            Ok(document) => {
+                let mut found = Vec::new();
+                let scene = world(document.root_element(), options, &mut found);
+                // What is wrong with a blank has been said.
+                let blank = |span: &Range<usize>| {
+                    mended.iter().any(|mend| span.start < mend.end && mend.start < span.end)
+                };
+                out.extend(found.into_iter().filter(|diagnostic| !blank(&diagnostic.span)));
+                return scene;
+            }
             Err(problem) => *problem,
         };
         out.push(problem.diagnostic);
         let mend = problem.mend?;
-        let blank = " ".repeat(mend.len());
-        text.to_mut().replace_range(mend, &blank);
+        text.to_mut().replace_range(mend.clone(), &" ".repeat(mend.len()));
+        mended.push(mend);
     }
     None
 }
