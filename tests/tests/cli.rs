@@ -110,6 +110,8 @@ fn a_picture_in_every_format_is_silent_in_a_pipe() {
         folder.run(&["render", "scene.xml", "-o", name]).silent();
         assert!(bytes(&folder.path(name)).starts_with(magic), "{name}");
     }
+    folder.run(&["render", "scene.xml", "-o", "b", "--format", "JPG"]).silent();
+    assert!(bytes(&folder.path("b")).starts_with(b"\xff\xd8\xff"));
     folder.run(&["render", "scene.xml", "-o", "b", "--format", "png", "--bits", "16"]).silent();
     assert_eq!(bytes(&folder.path("b"))[24], 16, "the bit depth in the PNG header");
 }
@@ -194,6 +196,9 @@ fn wrong_usage_is_code_2_and_writes_nothing() {
         (&["render", "scene.xml", "-o", "a.png", "--size", "40"], "400x300"),
         (&["render", "scene.xml", "-o", "a.png", "--crop", "30,0,11,5"], "40x30"),
         (&["render", "scene.xml", "-o", "a.png", "--threads", "0"], "from 1 to"),
+        (&["render", "scene.xml", "-o", "a.png", "--threads", "-1"], "from 1 to"),
+        (&["render", "scene.xml", "-o", "a.png", "--size", "-1x5"], "400x300"),
+        (&["render", "scene.xml", "-o", "a.png", "--crop", "-1,0,4,4"], "100,50,64,48"),
         (&["render", "scene.xml", "-o", "a.jpg", "--bits", "16"], "ppm, png and tiff"),
         (&["render", "scene.xml", "-o", "a.png", "--stats", "./a.png"], "two different files"),
         (&["render", "scene.xml", "-o", "-", "--stats", "-"], "two different files"),
@@ -231,10 +236,9 @@ fn failures_leave_the_old_picture_and_no_rubbish() {
     folder.run(&["render", "gone.xml", "-o", "a.png"]).fails(1, "cannot read gone.xml");
     folder.run(&["render", "scene.xml", "-o", "no/a.png"]).fails(1, "there is no folder no");
     folder.run(&["render", "scene.xml", "-o", ".", "--format", "png"]).fails(1, "it is a folder");
-    // WebP has no pictures wider than 16384 pixels.
     folder
         .run(&["render", "scene.xml", "-o", "w.webp", "--size", "16385x1"])
-        .fails(1, "cannot write this picture as webp");
+        .fails(1, "at most 16384 pixels along a side");
     assert_eq!(bytes(&folder.path("a.png")), b"the old picture");
     assert_eq!(folder.files(), ["a.png", "bad.xml", "scene.xml"]);
 }
@@ -302,7 +306,7 @@ fn compare_tells_by_its_exit_code() {
 
     assert_eq!(folder.run(&["compare", "a.png", "b.ppm", "--max-diff", "3"]).code(), Some(0));
     assert_eq!(folder.run(&["compare", "a.png", "b.ppm", "--max-diff", "2.9"]).code(), Some(1));
-    folder.run(&["compare", "a.png", "scene.xml"]).fails(1, "not a picture");
+    folder.run(&["compare", "a.png", "scene.xml"]).fails(1, "not a picture in any format");
     folder.run(&["compare", "a.png", "a.ppm", "--diff", "a.png"]).fails(2, "a file of its own");
 }
 
@@ -337,6 +341,72 @@ mod unix {
         assert!(fs::symlink_metadata(folder.path("link.png")).expect("there").is_symlink());
         assert!(bytes(&folder.path("real/a.png")).starts_with(b"\x89PNG"));
         folder.run(&["render", "scene.xml", "-o", "/dev/null", "--format", "png"]).silent();
+        // Also to where there is nothing yet.
+        std::os::unix::fs::symlink("real/new.png", folder.path("dangling.png")).expect("created");
+        folder.run(&["render", "scene.xml", "-o", "dangling.png"]).silent();
+        assert!(fs::symlink_metadata(folder.path("dangling.png")).expect("there").is_symlink());
+        assert!(bytes(&folder.path("real/new.png")).starts_with(b"\x89PNG"));
+        let run = folder.run(&["render", "scene.xml", "-o", "/dev/stdout", "--format", "qoi"]);
+        assert!(run.0.stdout.starts_with(b"qoif"));
+    }
+
+    #[test]
+    fn read_only_files_are_not_replaced() {
+        let folder = Folder::new();
+        fs::write(folder.path("a.png"), "precious").expect("written");
+        let read_only = fs::Permissions::from_mode(0o444);
+        fs::set_permissions(folder.path("a.png"), read_only).expect("it is ours");
+        folder.run(&["render", "scene.xml", "-o", "a.png"]).fails(1, "it is read-only");
+        folder.run(&["render", "scene.xml", "-o", "b.png/"]).fails(1, "that names a folder");
+        assert_eq!(bytes(&folder.path("a.png")), b"precious");
+    }
+
+    /// `nohup`, and jobs in the background of a script, have signals ignored.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn signals_that_are_ignored_stay_ignored() {
+        let folder = Folder::new();
+        let script = format!(
+            "trap '' HUP INT; {} render scene.xml -o a.ppm --size 1500x1500 & \
+             sleep 0.3; kill -INT $!; kill -HUP $!; wait $!",
+            env!("CARGO_BIN_EXE_lancer-under-test")
+        );
+        let mut shell = Command::new("sh");
+        let status = shell.args(["-c", &script]).current_dir(folder.0.path()).status();
+        assert_eq!(status.expect("there is a shell").code(), Some(0));
+        assert!(bytes(&folder.path("a.ppm")).starts_with(b"P6\n1500 1500\n"));
+    }
+
+    /// A terminal that answers no question, as `script` gives one, must not keep
+    /// the preview waiting; where there is no `script` this shows nothing.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_preview_does_not_wait_for_a_dumb_terminal() {
+        let folder = Folder::new();
+        let command = format!(
+            "{} render scene.xml --preview --size 8x8 --quiet",
+            env!("CARGO_BIN_EXE_lancer-under-test")
+        );
+        let child = Command::new("script")
+            .args(["--quiet", "--return", "--command", &command, "/dev/null"])
+            .current_dir(folder.0.path())
+            .env("TERM", "xterm-256color")
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .spawn();
+        let Ok(mut child) = child else {
+            println!("skipped: there is no `script` on this machine");
+            return;
+        };
+        let begun = Instant::now();
+        while child.try_wait().expect("it can be waited for").is_none() {
+            assert!(begun.elapsed() < Duration::from_secs(20), "it hangs");
+            std::thread::sleep(Duration::from_millis(50));
+        }
+        let output = child.wait_with_output().expect("it has ended");
+        assert!(output.status.success());
+        let text = String::from_utf8_lossy(&output.stdout);
+        assert!(text.contains("\u{1b}[48;") || text.contains("\u{1b}[38;"), "{text:?}");
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! The command line: what may be written, and what it means.
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 use lancer_film::{Size, Window};
 use lancer_integrator::{Engine, engine_by_name, engines};
@@ -50,7 +50,7 @@ pub struct RenderArgs {
     pub output: Option<PathBuf>,
 
     /// The picture's format; else the file name's extension says it (PPM on standard output)
-    #[arg(long, value_name = "FORMAT", value_parser = format_parser())]
+    #[arg(long, value_name = "FORMAT", value_parser = format_parser(), ignore_case = true)]
     pub format: Option<Format>,
 
     /// How many bits each component has, in formats that leave the choice (ppm, png, tiff)
@@ -62,15 +62,15 @@ pub struct RenderArgs {
     pub engine: EngineName,
 
     /// Make the picture so many pixels large, whatever the scene says
-    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    #[arg(long, value_name = "WxH", value_parser = parse_size, allow_hyphen_values = true)]
     pub size: Option<Size>,
 
     /// Keep only this part of the picture: column and row of its corner, width and height
-    #[arg(long, value_name = "X,Y,W,H", value_parser = parse_crop)]
+    #[arg(long, value_name = "X,Y,W,H", value_parser = parse_crop, allow_hyphen_values = true)]
     pub crop: Option<Window>,
 
     /// How many threads to use; one for each core by default. The picture is the same
-    #[arg(long, value_name = "N", value_parser = parse_threads)]
+    #[arg(long, value_name = "N", value_parser = parse_threads, allow_hyphen_values = true)]
     pub threads: Option<NonZeroUsize>,
 
     /// Write times, counts of rays and settings to a JSON file
@@ -167,7 +167,8 @@ fn engine_help() -> String {
 }
 
 fn format_parser() -> impl TypedValueParser<Value = Format> {
-    PossibleValuesParser::new(Format::ALL.iter().map(|(format, _)| format.name()))
+    let value = |names: &[&'static str]| PossibleValue::new(names[0]).aliases(names[1..].to_vec());
+    PossibleValuesParser::new(Format::ALL.iter().map(|(_, names)| value(names)))
         .try_map(|name| Format::from_name(&name).ok_or("no such format"))
 }
 
@@ -178,24 +179,30 @@ fn bits_parser() -> impl TypedValueParser<Value = Bits> {
 
 /// Numbers of pixels along a side that picture formats can count.
 fn side(text: &str) -> Option<u32> {
-    text.parse().ok().filter(|side| (1..=i32::MAX as u32).contains(side))
+    number(text).filter(|side| (1..=i32::MAX as u32).contains(side))
+}
+
+/// A number in digits alone.
+fn number(text: &str) -> Option<u32> {
+    text.bytes().all(|b| b.is_ascii_digit()).then(|| text.parse().ok()).flatten()
 }
 
 fn parse_size(text: &str) -> Result<Size, String> {
     text.split_once(['x', 'X'])
         .and_then(|(width, height)| Some(Size::new(side(width)?, side(height)?)))
-        .ok_or_else(|| "expected a width and a height in pixels, such as 400x300".to_owned())
+        .ok_or_else(|| {
+            "expected a width and a height of 1 to 2147483647 pixels, such as 400x300".to_owned()
+        })
 }
 
 fn parse_crop(text: &str) -> Result<Window, String> {
     let parts: Vec<&str> = text.split(',').collect();
-    let window =
-        match parts[..] {
-            [x, y, width, height] => x.parse().ok().zip(y.parse().ok()).and_then(|(x, y)| {
-                Some(Window { x, y, width: side(width)?, height: side(height)? })
-            }),
-            _ => None,
-        };
+    let window = match parts[..] {
+        [x, y, width, height] => number(x)
+            .zip(number(y))
+            .and_then(|(x, y)| Some(Window { x, y, width: side(width)?, height: side(height)? })),
+        _ => None,
+    };
     window.ok_or_else(|| {
         "expected column, row, width and height in pixels, such as 100,50,64,48".to_owned()
     })
@@ -205,8 +212,8 @@ fn parse_crop(text: &str) -> Result<Window, String> {
 const MOST_THREADS: usize = 1024;
 
 fn parse_threads(text: &str) -> Result<NonZeroUsize, String> {
-    text.parse::<NonZeroUsize>()
-        .ok()
+    number(text)
+        .and_then(|threads| NonZeroUsize::new(threads as usize))
         .filter(|threads| threads.get() <= MOST_THREADS)
         .ok_or_else(|| format!("expected a whole number from 1 to {MOST_THREADS}"))
 }

@@ -2,6 +2,7 @@
 
 use crate::Failure;
 use crate::args::is_standard;
+use crate::interrupt;
 use std::fs;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
@@ -42,7 +43,7 @@ impl Target {
     /// Finds what can be known to be wrong now rather than after the work.
     pub(crate) fn new(path: &Path) -> Result<Self, Failure> {
         let name = path.to_owned();
-        let kind = if is_standard(path) {
+        let kind = if is_standard(path) || path == Path::new("/dev/stdout") {
             Kind::StandardOutput
         } else {
             Self::look_at(path).map_err(|reason| {
@@ -53,12 +54,22 @@ impl Target {
     }
 
     fn look_at(path: &Path) -> Result<Kind, String> {
+        if path.as_os_str().as_encoded_bytes().ends_with(b"/") {
+            return Err("that names a folder".to_owned());
+        }
+        // What these lead to may be a file, but is not ours to replace.
+        if path.starts_with("/dev") || path.starts_with("/proc") {
+            return Ok(Kind::Special);
+        }
         match fs::metadata(path) {
             Ok(found) if found.is_dir() => return Err("it is a folder".to_owned()),
             Ok(found) if !found.is_file() => return Ok(Kind::Special),
+            Ok(found) if found.permissions().readonly() => {
+                return Err("it is read-only".to_owned());
+            }
             Ok(_) => {
                 let real = fs::canonicalize(path).map_err(|e| e.to_string())?;
-                return Ok(Kind::File(real));
+                return Self::try_out(real);
             }
             Err(e) if e.kind() != io::ErrorKind::NotFound => return Err(e.to_string()),
             Err(_) => {}
@@ -69,8 +80,20 @@ impl Target {
             return Self::look_at(&folder_of(path).join(link));
         }
         match fs::metadata(folder_of(path)) {
-            Ok(folder) if folder.is_dir() => Ok(Kind::File(path.to_owned())),
+            Ok(folder) if folder.is_dir() => Self::try_out(path.to_owned()),
             _ => Err(format!("there is no folder {}", folder_of(path).display())),
+        }
+    }
+
+    /// Whether the folder takes a temporary file.
+    fn try_out(path: PathBuf) -> Result<Kind, String> {
+        match tempfile::tempfile_in(folder_of(&path)) {
+            Ok(_) => Ok(Kind::File(path)),
+            Err(e) => Err(format!(
+                "its folder {} takes no file: {}",
+                folder_of(&path).display(),
+                bare(&e)
+            )),
         }
     }
 
@@ -111,7 +134,7 @@ impl Target {
                 Kind::StandardOutput => "to standard output".to_owned(),
                 _ => self.name.display().to_string(),
             };
-            Failure::work(format_args!("cannot write {name}: {e}"))
+            Failure::work(format_args!("cannot write {name}: {}", bare(&e)))
         })
     }
 
@@ -122,7 +145,9 @@ impl Target {
                 out.write_all(bytes)?;
                 return out.flush();
             }
-            Kind::Special => return fs::write(&self.name, bytes),
+            Kind::Special => {
+                return fs::OpenOptions::new().append(true).open(&self.name)?.write_all(bytes);
+            }
             Kind::File(path) => path,
         };
         let mut builder = tempfile::Builder::new();
@@ -135,9 +160,24 @@ impl Target {
         if let Ok(old) = fs::metadata(path) {
             file.as_file().set_permissions(old.permissions())?;
         }
+        if interrupt::happened() {
+            return Err(io::Error::other("interrupted"));
+        }
         file.persist(path)?;
         Ok(())
     }
+}
+
+/// The system's own words, without the name of a temporary file.
+fn bare(error: &io::Error) -> io::Error {
+    let system = error.raw_os_error().or_else(|| {
+        let inner = error.get_ref()?.source()?.downcast_ref::<io::Error>()?;
+        inner.raw_os_error()
+    });
+    system.map_or_else(
+        || io::Error::new(error.kind(), error.to_string()),
+        io::Error::from_raw_os_error,
+    )
 }
 
 fn folder_of(path: &Path) -> &Path {

@@ -11,7 +11,6 @@ use lancer_output::{Format, encode, to_rgb8};
 use lancer_scene::{PixelCount, Scene};
 use lancer_xml::Options;
 use std::io::IsTerminal;
-use std::sync::atomic::Ordering;
 
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let outputs = Outputs::new(args)?;
@@ -23,6 +22,17 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
 
     let scene = scene(&name, &bytes, args)?;
     let frame = Size::new(scene.camera.px_width.get(), scene.camera.px_height.get());
+    let kept = args.crop.unwrap_or_else(|| frame.window());
+    if let Some((_, format)) = &outputs.picture
+        && let Some(most) = format.longest_side()
+        && kept.width.max(kept.height) > most
+    {
+        return Err(Failure::Work(format!(
+            "pictures in the format {} have at most {most} pixels along a side: choose another \
+             format, such as png",
+            format.name()
+        )));
+    }
     if let Some(crop) = args.crop.filter(|crop| !crop.fits(frame)) {
         return Err(Failure::Usage(format!(
             "--crop {crop} reaches out of the picture, which has {frame} pixels"
@@ -36,7 +46,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     if let Some((target, format)) = &outputs.picture {
         let bytes = encode(&rendered.film, *format, args.bits).map_err(Failure::work)?;
         seconds.encode = stopwatch.lap();
-        if interrupt::watch().load(Ordering::Relaxed) {
+        if interrupt::happened() {
             return Err(interrupted());
         }
         target.write(&bytes)?;

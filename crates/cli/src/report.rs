@@ -9,8 +9,12 @@ use std::fmt;
 use std::io::{IsTerminal, Write};
 use std::ops::Range;
 
-/// Writes a line to standard error; if nobody listens, so be it.
+/// Writes a line to standard error; if nobody listens, so be it. Names of files
+/// in it may hold anything.
 pub(crate) fn say(line: fmt::Arguments<'_>) {
+    let line = line.to_string();
+    let line: String =
+        line.chars().map(|c| if c == '\n' || is_printable(c) { c } else { '?' }).collect();
     let _ = writeln!(std::io::stderr(), "{line}");
 }
 
@@ -75,7 +79,9 @@ pub fn to_text(name: &str, parsed: &Parsed) -> String {
 }
 
 fn theme() -> GraphicalTheme {
-    let colours = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
+    let colours = std::io::stderr().is_terminal()
+        && std::env::var_os("NO_COLOR").is_none()
+        && std::env::var_os("TERM").is_none_or(|term| term != "dumb");
     if colours { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() }
 }
 
@@ -160,11 +166,12 @@ fn is_printable(c: char) -> bool {
 impl Printable {
     fn new(name: &str, source: &Source) -> Self {
         let mut text = String::with_capacity(source.text().len());
-        let mut rest = source.text().chars();
-        while let Some(c) = rest.next() {
-            let line_end = c == '\r' && rest.as_str().starts_with('\n');
-            if line_end || matches!(c, '\n' | '\t') || is_printable(c) {
+        for c in source.text().chars() {
+            if matches!(c, '\n' | '\t') || is_printable(c) {
                 text.push(c);
+            } else if c == '\r' {
+                // The printing library would take it for the end of a line.
+                text.push(' ');
             } else {
                 text.extend(std::iter::repeat_n('?', c.len_utf8()));
             }

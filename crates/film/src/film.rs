@@ -67,9 +67,10 @@ impl Film {
         let out_of_memory =
             FilmError::OutOfMemory { pixels: count, bytes: count.saturating_mul(12) };
         let count = usize::try_from(count).map_err(|_| out_of_memory)?;
-        let mut pixels = Vec::new();
-        pixels.try_reserve_exact(count).map_err(|_| out_of_memory)?;
-        pixels.resize(count, [0.0; 3]);
+        // Asks whether there is enough; what `vec!` then takes is black without
+        // being written to.
+        Vec::<[f32; 3]>::new().try_reserve_exact(count).map_err(|_| out_of_memory)?;
+        let pixels = vec![[0.0; 3]; count];
         Ok(Self { frame, window, display, pixels, frame_peak: None })
     }
 

@@ -21,8 +21,14 @@ enum Samples {
 
 /// Why a picture could not be read.
 #[derive(Debug, thiserror::Error)]
-#[error("not a picture that can be read: {0}")]
-pub struct DecodeError(#[from] image::ImageError);
+pub enum DecodeError {
+    /// The first bytes are not those of any format.
+    #[error("not a picture in any format that can be read")]
+    Unknown,
+    /// The format is known, but the picture is broken.
+    #[error("the picture is broken: {0}")]
+    Broken(#[from] image::ImageError),
+}
 
 /// The most memory that decoding may take, in bytes.
 const MOST_MEMORY: u64 = 8 << 30;
@@ -36,13 +42,17 @@ pub fn decode(bytes: &[u8]) -> Result<Picture, DecodeError> {
     let mut reader = ImageReader::new(Cursor::new(bytes))
         .with_guessed_format()
         .map_err(image::ImageError::IoError)?;
-    if reader.format().is_none() {
+    let known = reader.format().is_some();
+    if !known {
         reader.set_format(image::ImageFormat::Tga);
     }
     let mut limits = Limits::default();
     limits.max_alloc = Some(MOST_MEMORY);
     reader.limits(limits);
-    let image = reader.decode()?;
+    let image = match reader.decode() {
+        Err(_) if !known => return Err(DecodeError::Unknown),
+        image => image?,
+    };
     let (width, height) = (image.width(), image.height());
     let samples = match image {
         DynamicImage::ImageLuma16(_)

@@ -73,6 +73,17 @@ impl Format {
         matches!(self, Self::Ppm | Self::Png | Self::Tiff)
     }
 
+    /// The most pixels that a picture may have along a side, where the format has
+    /// such a limit.
+    #[must_use]
+    pub const fn longest_side(self) -> Option<u32> {
+        match self {
+            Self::Webp => Some(16_384),
+            Self::Jpeg | Self::Tga => Some(65_535),
+            _ => None,
+        }
+    }
+
     /// Whether it holds linear values instead of codes for a display.
     #[must_use]
     pub const fn is_linear(self) -> bool {

@@ -169,7 +169,9 @@ fn explain(error: &Error, text: &str, source: &Source) -> Diagnostic {
     let last = text.trim_end().char_indices().last().map_or(0, |(i, _)| i);
     match error {
         Error::DtdDetected => {
-            let at = text.find("<!DOCTYPE").unwrap_or(0);
+            let in_comment = |at: usize| text[..at].rfind("<!--") > text[..at].rfind("-->");
+            let mut places = text.match_indices("<!DOCTYPE").map(|(at, _)| at);
+            let at = places.find(|at| !in_comment(*at)).unwrap_or(0);
             Diagnostic::error(
                 at..(at + "<!DOCTYPE".len()).min(text.len()),
                 "document type declarations and entities are refused",
@@ -243,16 +245,22 @@ fn explain(error: &Error, text: &str, source: &Source) -> Diagnostic {
             error_at(&format!("the character U+{:04X} is not allowed", u32::from(*c)), "here")
         }
         Error::InvalidComment(_) => error_at("a comment must not hold `--`", "in this comment"),
-        Error::InvalidName(_) => error_at("a name was expected", "this cannot begin a name"),
+        Error::InvalidName(_) => error_at("a name was expected", "this cannot begin a name")
+            .help("is a `>` missing before it?".to_owned()),
         Error::InvalidChar(expected, found, _) => error_at(
             &format!("`{}` was expected", char::from(*expected)),
             &format!("found `{}`", char::from(*found).escape_default()),
-        ),
+        )
+        .help((*found == b'<').then(|| "inside a value write `&lt;` for `<`".to_owned())),
         Error::InvalidChar2(expected, found, _) => error_at(
             &format!("{expected} was expected"),
             &format!("found `{}`", char::from(*found).escape_default()),
         )
-        .help((*expected == "a whitespace").then(|| "is a quote missing before it?".to_owned())),
+        .help(match *expected {
+            "a whitespace" => Some("is a quote missing before it?".to_owned()),
+            "a quote" => Some("write values in quotes: `size=\"1\"`".to_owned()),
+            _ => None,
+        }),
         Error::UnknownToken(_) if text[..at].trim().is_empty() => {
             Diagnostic::error(char_at(at), "the file is not XML", "expected <world>")
                 .help("a scene file is <world> with a <camera>, <lights> and <shapes>".to_owned())

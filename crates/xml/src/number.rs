@@ -94,7 +94,8 @@ pub(crate) fn whole(text: &str) -> Result<u32, NotANumber> {
         return Err(NotANumber {
             problem: "is not a whole number".to_owned(),
             part: start..start + trimmed.len(),
-            help: None,
+            help: (value.fract() == 0.0 && value < 1e9)
+                .then(|| format!("write it in digits alone: `{value}`")),
         });
     }
     // Saturates: negative numbers give 0, huge ones the largest.

@@ -19,7 +19,7 @@ pub(crate) fn nearest<'a>(
                 folded.len() >= 3 && (name.starts_with(&folded) || folded.starts_with(name));
             (if prefix { distance.min(1) } else { distance }, name)
         })
-        .filter(|(distance, name)| *distance <= name.len().max(folded.len()) / 3)
+        .filter(|(distance, name)| *distance <= name.len().max(folded.chars().count()) / 3)
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, name)| name)
 }
@@ -52,6 +52,7 @@ mod tests {
             ("darkgreen", Some("dark green")),
             ("whiet", Some("white")),
             ("mauve", None),
+            ("\u{6a59}\u{8272}\u{6a59}\u{8272}", None),
             ("", None),
         ] {
             assert_eq!(nearest(found, COLOURS), expected, "{found:?}");

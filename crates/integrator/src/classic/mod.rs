@@ -33,6 +33,10 @@ fn can_be_squared(v: Vector) -> bool {
 /// from the ends of double precision for fourth powers, which shadows take.
 const LARGEST: f64 = 1e70;
 
+/// Sums of light up to this, times 255 and with as much glow on top, are finite
+/// in single precision.
+const LARGEST_SUM: f64 = 1e35;
+
 /// What looks wrong in this scene because the original computes it so.
 pub(crate) fn warnings(scene: &Scene) -> Vec<String> {
     let mut warnings = Vec::new();
@@ -46,6 +50,13 @@ pub(crate) fn warnings(scene: &Scene) -> Vec<String> {
              black: move the target sideways a little"
                 .to_owned(),
         );
+    }
+    let total: f64 = scene.lights.iter().map(|light| light.brightness().get()).sum();
+    if total > LARGEST_SUM {
+        warnings.push(format!(
+            "the brightnesses add up to {total:e}, and colours times that are infinite, which \
+             makes the picture black: keep them below {LARGEST_SUM:e}"
+        ));
     }
     let mut sizes = vec![camera.origin().get().coords.amax(), camera.target().get().coords.amax()];
     for (i, light) in scene.lights.iter().enumerate() {

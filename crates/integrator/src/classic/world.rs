@@ -152,6 +152,7 @@ impl World {
     }
 
     /// The point that was hit, with all that shading needs.
+    #[inline]
     #[must_use]
     pub fn expand(&self, ray: &Ray, hit: Hit) -> SurfacePoint {
         let point = ray.at(hit.distance);
