@@ -73,6 +73,9 @@ impl Occluders {
     #[inline]
     pub(super) fn hidden(&self, world: &World, ways: &Ways, asked: u32) -> u32 {
         let mut hidden = self.hidden;
+        if asked & !hidden == 0 {
+            return hidden;
+        }
         for sphere in &world.spheres {
             hidden |= sphere.hides(ways, asked);
         }
