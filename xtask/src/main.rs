@@ -31,7 +31,8 @@ enum Command {
     },
     /// Check what no compiler checks: dependency arrows, lints, file sizes, the README's commands
     Tidy,
-    /// Time the engine on the README's scene and compare it with a plain transcription
+    /// Time the engine on the README's scene and compare it with a plain transcription (build with
+    /// --release)
     Time {
         /// How often to render
         #[arg(long, default_value_t = 7)]
