@@ -414,17 +414,18 @@ mod unix {
         for signal in ["INT", "TERM"] {
             let folder = Folder::new();
             fs::write(folder.path("a.png"), "the old picture").expect("written");
-            let mut child = Command::new(env!("CARGO_BIN_EXE_lancer-under-test"))
-                .args([
-                    "render",
-                    "scene.xml",
-                    "-o",
-                    "a.png",
-                    "--size",
-                    "20000x5000",
-                    "--crop",
-                    "0,0,9,9",
-                ])
+            // The tests themselves may be run where signals are ignored, under
+            // `nohup` say; then the program would rightly go on.
+            let program = env!("CARGO_BIN_EXE_lancer-under-test");
+            let mut command = if cfg!(target_os = "linux") {
+                let mut command = Command::new("env");
+                command.args(["--default-signal=HUP,INT,TERM", program]);
+                command
+            } else {
+                Command::new(program)
+            };
+            let mut child = command
+                .args("render scene.xml -o a.png --size 20000x5000 --crop 0,0,9,9".split(' '))
                 .current_dir(folder.0.path())
                 .stderr(Stdio::piped())
                 .spawn()
