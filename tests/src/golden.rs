@@ -14,7 +14,7 @@
 //! Each is a picture `tests/goldens/NAME.ENGINE.png`. Scenes may stand in folders,
 //! which are then part of their names; `scenes/invalid` is not looked into.
 
-use crate::paths::{all_with_extension, goldens, name_of, scenes};
+use crate::paths::{Beside, all_with_extension, goldens, name_of, scenes};
 use lancer_integrator::{RenderSettings, engine_by_name, render};
 use lancer_output::{
     Bits, Comparison, Format, Picture, compare, decode, difference_picture, encode, encode_rgb8,
@@ -149,7 +149,8 @@ impl Golden {
     /// Where the scene or the size is invalid.
     pub fn scene(&self) -> Result<Scene, Problem> {
         let bytes = fs::read(&self.scene).map_err(problem)?;
-        let parsed = lancer_xml::parse(&bytes, &lancer_xml::Options::default());
+        let files = Beside(self.scene.parent().unwrap_or(Path::new(".")));
+        let parsed = lancer_xml::parse_with(&bytes, &lancer_xml::Options::default(), &files);
         let mut scene =
             parsed.into_result().map_err(|e| problem(format!("{}: {e}", self.scene.display())))?;
         if let Some([width, height]) = self.settings.size {

@@ -64,3 +64,16 @@ pub fn name_of(file: &Path, folder: &Path) -> String {
 pub fn stem(path: &Path) -> String {
     path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
 }
+
+/// The files in a folder, for the meshes of scenes there.
+pub struct Beside<'a>(pub &'a Path);
+
+impl lancer_xml::Files for Beside<'_> {
+    fn read(&self, path: &str) -> Result<Vec<u8>, String> {
+        // The system's words differ between systems.
+        std::fs::read(self.0.join(path)).map_err(|e| match e.kind() {
+            std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
+            _ => "it cannot be read".to_owned(),
+        })
+    }
+}

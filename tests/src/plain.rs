@@ -63,7 +63,7 @@ fn unit(v: Vector) -> Vector {
 }
 
 fn rgb(colour: Colour) -> [f32; 3] {
-    [colour.r, colour.g, colour.b].map(f32::from)
+    colour.codes().map(f32::from)
 }
 
 /// All pixels of the frame, row by row.
@@ -74,7 +74,7 @@ pub fn render(scene: &Scene, engine: Plain) -> Vec<[f32; 3]> {
     let (origin, target) = (camera.origin().get(), camera.target().get());
     let (columns, rows) = (camera.px_width.get(), camera.px_height.get());
     let (px_width, px_height) = (f64::from(columns), f64::from(rows));
-    let width = camera.width.get();
+    let width = camera.plane_width();
     let height = px_height * width / px_width;
     let p = unit(target - origin);
     let n1 = unit(Vector::new(p.y, -p.x, 0.0));
@@ -107,9 +107,9 @@ impl World {
                 colour: rgb(shape.surface.colour),
                 second: match shape.surface.pattern {
                     Pattern::Solid => None,
-                    Pattern::Checker(second) => Some(rgb(second)),
+                    Pattern::Checker(checker) => Some(rgb(checker.second)),
                 },
-                gloss: shape.surface.gloss.get(),
+                gloss: shape.surface.gloss.get() as f32,
             });
             match &shape.geometry {
                 Geometry::Sphere(s) => world.balls.push(Ball {
@@ -122,7 +122,7 @@ impl World {
                     normal: unit(p.normal.get()),
                     surface,
                 }),
-                Geometry::Custom(_) => unreachable!("the original has no such shape"),
+                _ => unreachable!("the original has no such shape"),
             }
         }
         let is_sun = |light: &&Light| matches!(light, Light::Sun { .. });
@@ -197,7 +197,7 @@ impl World {
                 let way = unit(-direction.get());
                 (way, self.hides(point, way, f64::INFINITY))
             }
-            Light::Lamp { point: lamp, .. } => {
+            Light::Lamp { point: lamp, .. } | Light::Spot { point: lamp, .. } => {
                 let way = lamp.get() - point;
                 (way, self.hides(point, way, way.norm_squared()))
             }
@@ -300,7 +300,7 @@ fn two_to(e: i32) -> f64 {
 fn length_squared(light: &Light, way: Vector) -> f64 {
     match light {
         Light::Sun { .. } => 1.0,
-        Light::Lamp { .. } => way.norm_squared(),
+        _ => way.norm_squared(),
     }
 }
 

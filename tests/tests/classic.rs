@@ -80,7 +80,7 @@ fn the_shortcuts_change_no_bit_of_random_scenes() {
 fn a_lamp_touches_a_plane(scene: &Scene) -> bool {
     let lamps = scene.lights.iter().filter_map(|light| match light {
         Light::Lamp { point, .. } => Some(point.get()),
-        Light::Sun { .. } => None,
+        _ => None,
     });
     let planes = scene.shapes.iter().filter_map(|shape| match &shape.geometry {
         Geometry::Plane(plane) => Some(*plane),

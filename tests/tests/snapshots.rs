@@ -1,13 +1,14 @@
 //! The parsed form of every scene and the text of every diagnostic.
 
-use lancer_tests::paths::{files_with_extension, scenes, stem, top};
+use lancer_tests::paths::{Beside, files_with_extension, scenes, stem, top};
 use lancer_xml::{Options, Parsed};
 use std::collections::BTreeSet;
 use std::path::Path;
 
 fn parse(path: &Path) -> Parsed {
     let bytes = std::fs::read(path).expect("the file is there");
-    lancer_xml::parse(&bytes, &Options::default())
+    let beside = Beside(path.parent().expect("it is in a folder"));
+    lancer_xml::parse_with(&bytes, &Options::default(), &beside)
 }
 
 /// Compares one text for each file with its snapshot, all of them before

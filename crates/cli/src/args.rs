@@ -2,9 +2,10 @@
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
-use lancer_film::{Size, Window};
-use lancer_integrator::{Engine, engine_by_name, engines};
+use lancer_film::{LayerKind, Size, Window};
+use lancer_integrator::{Engine, Whitted, engine_by_name, engines};
 use lancer_output::{Bits, Format};
+use lancer_scene::{Exposure, Stops};
 use std::ffi::OsStr;
 use std::fmt;
 use std::num::NonZeroUsize;
@@ -57,9 +58,24 @@ pub struct RenderArgs {
     #[arg(long, value_name = "BITS", default_value = "8", value_parser = bits_parser())]
     pub bits: Bits,
 
-    #[arg(long, default_value = "classic", value_parser = engine_parser(), help = engine_help())]
+    #[arg(long, default_value = "whitted", value_parser = engine_parser(), help = engine_help())]
     #[allow(missing_docs, reason = "the doc comment would replace the computed help")]
     pub engine: EngineName,
+
+    /// How bright the picture is shown: a number of stops (each doubles it), or auto. Else the
+    /// camera's own exposure
+    #[arg(long, value_name = "STOPS", value_parser = parse_exposure, allow_hyphen_values = true)]
+    pub exposure: Option<Exposure>,
+
+    /// Do not follow rays that together could change a pixel by no more than this part of display
+    /// white (whitted; 0.0001 by default)
+    #[arg(long, value_name = "C", value_parser = parse_cutoff, allow_hyphen_values = true)]
+    pub cutoff: Option<Whitted>,
+
+    /// Write also what each pixel shows first, as layers of an EXR picture: depth, normal, albedo,
+    /// shape, instance, with commas between them, or all (whitted)
+    #[arg(long, value_name = "LAYERS", value_parser = parse_layers)]
+    pub layers: Option<LayerKinds>,
 
     /// Make the picture so many pixels large, whatever the scene says
     #[arg(long, value_name = "WxH", value_parser = parse_size, allow_hyphen_values = true)]
@@ -98,7 +114,7 @@ pub struct CheckArgs {
     pub scenes: Vec<PathBuf>,
 
     /// The engine whose warnings to report
-    #[arg(long, default_value = "classic", value_parser = engine_parser())]
+    #[arg(long, default_value = "whitted", value_parser = engine_parser())]
     pub engine: EngineName,
 
     /// Say nothing but warnings and errors
@@ -131,6 +147,10 @@ pub struct CompareArgs {
     #[arg(long)]
     pub json: bool,
 }
+
+/// Layers in the order in which they were asked for.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LayerKinds(pub Vec<LayerKind>);
 
 /// The name of a built-in engine.
 #[derive(Clone, Copy)]
@@ -218,6 +238,41 @@ fn parse_threads(text: &str) -> Result<NonZeroUsize, String> {
         .ok_or_else(|| format!("expected a whole number from 1 to {MOST_THREADS}"))
 }
 
+fn parse_exposure(text: &str) -> Result<Exposure, String> {
+    if text == "auto" {
+        return Ok(Exposure::Auto);
+    }
+    let stops = text.parse().ok().and_then(|stops| Stops::new(stops).ok());
+    stops
+        .map(Exposure::Stops)
+        .ok_or_else(|| "expected auto, or a number of stops from -1000 to 1000".to_owned())
+}
+
+fn parse_cutoff(text: &str) -> Result<Whitted, String> {
+    let cutoff = text.parse().ok().and_then(|cutoff| Whitted::with_cutoff(cutoff).ok());
+    cutoff.ok_or_else(|| "expected a number from 0 to 1".to_owned())
+}
+
+fn parse_layers(text: &str) -> Result<LayerKinds, String> {
+    let mut kinds = Vec::new();
+    for name in text.split(',') {
+        let found: &[LayerKind] = match LayerKind::from_name(name) {
+            Some(kind) => &[kind],
+            None if name == "all" => LayerKind::ALL,
+            None => {
+                let names: Vec<_> = LayerKind::ALL.iter().map(|kind| kind.name()).collect();
+                return Err(format!("`{name}` is none of {}, all", names.join(", ")));
+            }
+        };
+        for kind in found {
+            if !kinds.contains(kind) {
+                kinds.push(*kind);
+            }
+        }
+    }
+    Ok(LayerKinds(kinds))
+}
+
 fn parse_levels(text: &str) -> Result<f64, String> {
     text.parse::<f64>()
         .ok()
@@ -254,6 +309,17 @@ mod tests {
         assert!(parse_threads("0").is_err() && parse_threads("100000").is_err());
         assert!(parse_levels("-1").is_err() && parse_levels("NaN").is_err());
         assert_eq!(parse_levels("0.5"), Ok(0.5));
+        assert_eq!(parse_exposure("auto"), Ok(Exposure::Auto));
+        assert_eq!(parse_exposure("-1.5").ok(), Stops::new(-1.5).ok().map(Exposure::Stops));
+        for bad in ["", "Auto", "1001", "NaN", "inf", "1 stop"] {
+            assert!(parse_exposure(bad).is_err(), "{bad}");
+        }
+        assert!(parse_cutoff("-1").is_err() && parse_cutoff("2").is_err());
+        assert!(parse_cutoff("1e-7").is_ok_and(|whitted| whitted.cutoff() == 1e-7));
+        let layers = parse_layers("normal,depth,normal").map(|layers| layers.0);
+        assert_eq!(layers, Ok(vec![LayerKind::Normal, LayerKind::Depth]));
+        assert_eq!(parse_layers("all").map(|layers| layers.0.len()), Ok(5));
+        assert!(parse_layers("").is_err() && parse_layers("depth,colour").is_err());
     }
 
     #[test]

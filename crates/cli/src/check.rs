@@ -18,11 +18,19 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
                 continue;
             }
         };
-        let parsed = lancer_xml::parse(&bytes, &options);
+        let parsed = lancer_xml::parse_with(&bytes, &options, &files::BesideScene(path));
         let tally = report::show(&name, &parsed, false);
         failed |= tally.errors > 0;
         if let Some(scene) = &parsed.scene {
-            for warning in args.engine.engine().warnings(scene) {
+            let engine = args.engine.engine();
+            for refusal in engine.refusals(scene) {
+                report::say(format_args!(
+                    "error: {name}: the engine {} cannot show this scene: {refusal}",
+                    engine.name()
+                ));
+                failed = true;
+            }
+            for warning in engine.warnings(scene) {
                 report::say(format_args!("warning: {name}: {warning}"));
             }
         }
@@ -39,7 +47,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
                     scene.camera.px_width.get(),
                     scene.camera.px_height.get(),
                     count(scene.lights.len(), "light"),
-                    count(scene.shapes.len(), "shape"),
+                    count(scene.shape_count() as usize, "shape"),
                 ))?;
             }
         }

@@ -22,6 +22,33 @@ pub(crate) fn read(path: &Path) -> Result<(String, Vec<u8>), Failure> {
     Ok((name, bytes))
 }
 
+/// The files that a scene speaks of: their names are relative to its own folder,
+/// or for standard input to the present one.
+pub(crate) struct BesideScene<'a>(pub(crate) &'a Path);
+
+impl lancer_xml::Files for BesideScene<'_> {
+    fn read(&self, path: &str) -> Result<Vec<u8>, String> {
+        let folder = if is_standard(self.0) { Path::new(".") } else { folder_of(self.0) };
+        let path = folder.join(path);
+        let file = fs::File::open(&path).map_err(|e| bare(&e).to_string())?;
+        let about = file.metadata().map_err(|e| bare(&e).to_string())?;
+        if about.is_dir() {
+            return Err("it is a folder".to_owned());
+        }
+        let mut bytes = Vec::new();
+        // A device or a pipe may have no end.
+        let most = MOST_MESH_BYTES + 1;
+        file.take(most).read_to_end(&mut bytes).map_err(|e| bare(&e).to_string())?;
+        if bytes.len() as u64 == most {
+            return Err(format!("it has more than {MOST_MESH_BYTES} bytes"));
+        }
+        Ok(bytes)
+    }
+}
+
+/// A mesh file may have so many bytes.
+const MOST_MESH_BYTES: u64 = 4 << 30;
+
 /// Where a file will be written to, looked at before the work begins.
 #[derive(Debug)]
 pub(crate) struct Target {

@@ -7,7 +7,7 @@
 //!
 //! let cli = Cli::try_parse_from(["lancer", "render", "scene.xml", "-o", "picture.png"])?;
 //! let Command::Render(render) = cli.command else { panic!("it says render") };
-//! assert_eq!(render.engine.name(), "classic");
+//! assert_eq!(render.engine.name(), "whitted");
 //! # Ok::<(), clap::Error>(())
 //! ```
 #![forbid(unsafe_code)]

@@ -1,26 +1,27 @@
 //! `lancer render`
 
 use crate::args::{RenderArgs, is_standard};
-use crate::files::{Target, read};
+use crate::files::{BesideScene, Target, read};
 use crate::stats::{Seconds, Stats, Stopwatch, parts};
 use crate::{Failure, interrupt, preview, report};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use lancer_film::Size;
-use lancer_integrator::{RenderError, RenderSettings, Rendered, render};
-use lancer_output::{Format, encode, to_rgb8};
+use lancer_integrator::{Engine, RenderError, RenderSettings, Rendered, Trouble, Whitted, render};
+use lancer_output::{Format, encode, encode_exr_with_layers, to_rgb8};
 use lancer_scene::{PixelCount, Scene};
 use lancer_xml::Options;
 use std::io::IsTerminal;
 
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let outputs = Outputs::new(args)?;
+    let engine = engine(args)?;
     let mut seconds = Seconds::default();
     let mut stopwatch = Stopwatch::start();
 
     let (name, bytes) = read(&args.scene)?;
     seconds.read = stopwatch.lap();
 
-    let scene = scene(&name, &bytes, args)?;
+    let scene = scene(&name, &bytes, args, engine)?;
     let frame = Size::new(scene.camera.px_width.get(), scene.camera.px_height.get());
     let kept = args.crop.unwrap_or_else(|| frame.window());
     if let Some((_, format)) = &outputs.picture
@@ -40,11 +41,18 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     }
     seconds.parse = stopwatch.lap();
 
-    let rendered = draw(&scene, args, &outputs)?;
+    let rendered = draw(&scene, args, engine, &outputs)?;
+    if !args.quiet {
+        tell_troubles(&name, &rendered);
+    }
     seconds.render = stopwatch.lap();
 
     if let Some((target, format)) = &outputs.picture {
-        let bytes = encode(&rendered.film, *format, args.bits).map_err(Failure::work)?;
+        let bytes = match (&rendered.layers, &args.layers) {
+            (Some(layers), Some(kinds)) => encode_exr_with_layers(&rendered.film, layers, &kinds.0),
+            _ => encode(&rendered.film, *format, args.bits),
+        };
+        let bytes = bytes.map_err(Failure::work)?;
         seconds.encode = stopwatch.lap();
         if interrupt::happened() {
             return Err(interrupted());
@@ -63,10 +71,14 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         height: frame.height,
         crop: args.crop.map(parts),
         lights: scene.lights.len(),
-        shapes: scene.shapes.len(),
+        shapes: scene.shape_count(),
         threads: rendered.threads,
         rays: rendered.counts.into(),
         frame_peak: rendered.film.frame_peak(),
+        exposure: rendered.film.exposure(),
+        cutoff: (engine.name() == WHITTED)
+            .then(|| args.cutoff.unwrap_or_default().cutoff()),
+        troubles: rendered.counts.troubles.into(),
         seconds,
     };
     if let Some(target) = &outputs.stats {
@@ -119,6 +131,12 @@ impl Outputs {
                         format.name()
                     ));
                 }
+                if args.layers.is_some() && format != Format::Exr {
+                    return usage(format!(
+                        "--layers: the format {} has none; write an EXR picture",
+                        format.name()
+                    ));
+                }
                 if standard && std::io::stdout().is_terminal() {
                     return usage(
                         "standard output is a terminal: send the picture to a file or a pipe, or \
@@ -161,10 +179,16 @@ impl Outputs {
 }
 
 /// The scene that the file describes, in the size asked for.
-fn scene(name: &str, bytes: &[u8], args: &RenderArgs) -> Result<Scene, Failure> {
+fn scene(
+    name: &str,
+    bytes: &[u8],
+    args: &RenderArgs,
+    engine: &dyn Engine,
+) -> Result<Scene, Failure> {
     // With --size it does not matter how large the file's own picture is.
     let max_pixels = args.size.is_none().then_some(args.max_pixels);
-    let parsed = lancer_xml::parse(bytes, &Options { max_pixels });
+    let files = BesideScene(&args.scene);
+    let parsed = lancer_xml::parse_with(bytes, &Options { max_pixels }, &files);
     let tally = report::show(name, &parsed, args.quiet);
     let Some(mut scene) = parsed.scene else {
         report::say(format_args!("{name}: {tally}"));
@@ -183,14 +207,70 @@ fn scene(name: &str, bytes: &[u8], args: &RenderArgs) -> Result<Scene, Failure> 
         scene.camera.px_height = side(size.height)?;
     }
     if !args.quiet {
-        for warning in args.engine.engine().warnings(&scene) {
+        for warning in engine.warnings(&scene) {
             report::say(format_args!("warning: {name}: {warning}"));
         }
     }
     Ok(scene)
 }
 
-fn draw(scene: &Scene, args: &RenderArgs, outputs: &Outputs) -> Result<Rendered, Failure> {
+/// The engine as the arguments set it.
+fn engine(args: &RenderArgs) -> Result<&dyn Engine, Failure> {
+    let only_whitted = |what: &str| {
+        let name = args.engine.name();
+        Failure::Usage(format!("{what} means nothing to the engine {name}, only to {WHITTED}"))
+    };
+    let is_whitted = args.engine.name() == WHITTED;
+    if args.exposure.is_some() && !is_whitted {
+        return Err(only_whitted("--exposure"));
+    }
+    if args.layers.is_some() && !is_whitted {
+        return Err(only_whitted("--layers"));
+    }
+    match &args.cutoff {
+        Some(whitted) if is_whitted => Ok(whitted),
+        Some(_) => Err(only_whitted("--cutoff")),
+        None => Ok(args.engine.engine()),
+    }
+}
+
+const WHITTED: &str = "whitted";
+
+/// Says where the picture is wrong.
+fn tell_troubles(name: &str, rendered: &Rendered) {
+    let tell = |trouble: &Trouble, what: &str, remedy: &str| {
+        if let Some((x, y)) = trouble.first {
+            let count = trouble.count;
+            report::say(format_args!(
+                "warning: {name}: {what} ({count} times, first at pixel {x},{y}): {remedy}"
+            ));
+        }
+    };
+    let troubles = &rendered.counts.troubles;
+    tell(
+        &troubles.media,
+        "rays left a medium that they had not entered, or entered one twice",
+        "close the transparent shape there, or make it thin=\"true\"",
+    );
+    let deepest = Whitted::DEEPEST;
+    tell(
+        &troubles.depth,
+        &format!("rays still mattered after {deepest} surfaces and were given up"),
+        "give mirrors a gloss below 1, or raise --cutoff",
+    );
+    tell(
+        &troubles.not_finite,
+        "colours were no finite numbers and are black",
+        "look for brightnesses, coordinates or emissions that are far too large",
+    );
+}
+
+fn draw(
+    scene: &Scene,
+    args: &RenderArgs,
+    engine: &dyn Engine,
+    outputs: &Outputs,
+) -> Result<Rendered, Failure> {
     let bar = progress_bar(args);
     let progress = |done, all| {
         bar.set_length(all);
@@ -198,12 +278,14 @@ fn draw(scene: &Scene, args: &RenderArgs, outputs: &Outputs) -> Result<Rendered,
     };
     let settings = RenderSettings {
         window: args.crop,
-        frame_peak: outputs.shows_codes(args),
+        for_display: outputs.shows_codes(args),
+        exposure: args.exposure,
+        layers: args.layers.is_some(),
         threads: args.threads,
         progress: Some(&progress),
         cancel: Some(interrupt::watch()),
     };
-    let result = render(scene, args.engine.engine(), &settings);
+    let result = render(scene, engine, &settings);
     bar.finish_and_clear();
     result.map_err(|error| match error {
         RenderError::Interrupted => interrupted(),

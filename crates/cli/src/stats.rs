@@ -1,7 +1,7 @@
 //! What `--stats` writes.
 
 use lancer_film::{Size, Window};
-use lancer_integrator::RayCounts;
+use lancer_integrator::{RayCounts, Trouble, Troubles as Met};
 use serde::Serialize;
 use std::time::{Duration, Instant};
 
@@ -16,10 +16,13 @@ pub(crate) struct Stats {
     pub(crate) height: u32,
     pub(crate) crop: Option<[u32; 4]>,
     pub(crate) lights: usize,
-    pub(crate) shapes: usize,
+    pub(crate) shapes: u64,
     pub(crate) threads: usize,
     pub(crate) rays: Rays,
     pub(crate) frame_peak: Option<f32>,
+    pub(crate) exposure: Option<f64>,
+    pub(crate) cutoff: Option<f64>,
+    pub(crate) troubles: Troubles,
     pub(crate) seconds: Seconds,
 }
 
@@ -27,8 +30,36 @@ pub(crate) struct Stats {
 pub(crate) struct Rays {
     primary: u64,
     reflected: u64,
+    transmitted: u64,
     shadow: u64,
     total: u64,
+}
+
+/// What went wrong in the picture.
+#[derive(Debug, Serialize)]
+pub(crate) struct Troubles {
+    media: Count,
+    depth: Count,
+    not_finite: Count,
+}
+
+#[derive(Debug, Serialize)]
+struct Count {
+    count: u64,
+    first: Option<(u32, u32)>,
+}
+
+impl From<Trouble> for Count {
+    fn from(Trouble { count, first }: Trouble) -> Self {
+        Self { count, first }
+    }
+}
+
+impl From<Met> for Troubles {
+    fn from(met: Met) -> Self {
+        let Met { media, depth, not_finite } = met;
+        Self { media: media.into(), depth: depth.into(), not_finite: not_finite.into() }
+    }
 }
 
 /// Wall time by stage.
@@ -44,8 +75,8 @@ pub(crate) struct Seconds {
 
 impl From<RayCounts> for Rays {
     fn from(counts: RayCounts) -> Self {
-        let RayCounts { primary, reflected, shadow } = counts;
-        Self { primary, reflected, shadow, total: counts.total() }
+        let RayCounts { primary, reflected, transmitted, shadow, .. } = counts;
+        Self { primary, reflected, transmitted, shadow, total: counts.total() }
     }
 }
 

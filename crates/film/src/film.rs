@@ -1,3 +1,5 @@
+use crate::exposure::{MOST_STOPS, exposure_factor};
+use crate::grid::Grid;
 use crate::{Size, Window};
 
 /// How the values of a film become codes of a picture file.
@@ -10,15 +12,20 @@ pub enum Display {
         /// The value of display white, in the film's unit.
         white: f32,
     },
+    /// The values are linear radiance. They are multiplied by 2^stops (what
+    /// [`Film::set_stops`] says), clipped to what is from 0 to 1, and encoded
+    /// as sRGB; codes are the nearest.
+    Exposed,
 }
 
 impl Display {
-    /// The value of display white, in the film's unit. Formats that hold
-    /// linear values store a film divided by it.
+    /// The value of display white, in the film's unit; for exposed films that
+    /// of 0 stops. Formats that hold linear values store a film divided by it.
     #[must_use]
     pub const fn white(self) -> f32 {
         match self {
             Self::Brightest { white } => white,
+            Self::Exposed => 1.0,
         }
     }
 }
@@ -26,11 +33,10 @@ impl Display {
 /// Red, green and blue for each pixel of a window of a frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Film {
-    frame: Size,
-    window: Window,
+    grid: Grid<[f32; 3]>,
     display: Display,
-    pixels: Vec<[f32; 3]>,
     frame_peak: Option<f32>,
+    stops: Option<f64>,
 }
 
 /// Why a film could not be made.
@@ -60,30 +66,20 @@ impl Film {
     /// # Errors
     /// Where `window` does not fit in `frame`, or memory does not suffice.
     pub fn new(frame: Size, window: Window, display: Display) -> Result<Self, FilmError> {
-        if !window.fits(frame) {
-            return Err(FilmError::WindowOutside { window, frame });
-        }
-        let count = window.pixels();
-        let out_of_memory =
-            FilmError::OutOfMemory { pixels: count, bytes: count.saturating_mul(12) };
-        let count = usize::try_from(count).map_err(|_| out_of_memory)?;
-        // Asks whether there is enough; what `vec!` then takes is black without
-        // being written to.
-        Vec::<[f32; 3]>::new().try_reserve_exact(count).map_err(|_| out_of_memory)?;
-        let pixels = vec![[0.0; 3]; count];
-        Ok(Self { frame, window, display, pixels, frame_peak: None })
+        let grid = Grid::new(frame, window, [0.0; 3])?;
+        Ok(Self { grid, display, frame_peak: None, stops: None })
     }
 
     /// The size of the frame that the film is a window of.
     #[must_use]
     pub const fn frame(&self) -> Size {
-        self.frame
+        self.grid.frame()
     }
 
     /// The window of the frame that the film holds.
     #[must_use]
     pub const fn window(&self) -> Window {
-        self.window
+        self.grid.window()
     }
 
     /// How its values are meant to be shown.
@@ -95,7 +91,7 @@ impl Film {
     /// The window's pixels, row by row from the top.
     #[must_use]
     pub fn pixels(&self) -> &[[f32; 3]] {
-        &self.pixels
+        self.grid.values()
     }
 
     /// The pixel at column `x` and row `y` of the frame.
@@ -104,7 +100,7 @@ impl Film {
     /// Where that pixel is not in the window.
     #[must_use]
     pub fn pixel(&self, x: u32, y: u32) -> [f32; 3] {
-        self.pixels[self.row_start(x, y)]
+        self.grid.get(x, y)
     }
 
     /// Writes `values`, row by row, to the pixels of `tile` (in the frame's
@@ -114,13 +110,7 @@ impl Film {
     /// Where `tile` reaches out of the film's window, or `values` has another
     /// number of pixels.
     pub fn put(&mut self, tile: Window, values: &[[f32; 3]]) {
-        assert_eq!(values.len() as u64, tile.pixels(), "one value for each pixel");
-        assert_eq!(tile.intersection(self.window), Some(tile), "the tile lies in the window");
-        let width = tile.width as usize;
-        for (row, y) in values.chunks_exact(width).zip(tile.y..) {
-            let start = self.row_start(tile.x, y);
-            self.pixels[start..start + width].copy_from_slice(row);
-        }
+        self.grid.put(tile, values);
     }
 
     /// The largest component of the whole frame, at least 0, where it is known.
@@ -129,8 +119,8 @@ impl Film {
     /// renderer has looked at the rest and said so.
     #[must_use]
     pub fn frame_peak(&self) -> Option<f32> {
-        self.frame_peak
-            .or_else(|| (self.window == self.frame.window()).then(|| Self::peak(&self.pixels)))
+        let whole = self.window() == self.frame().window();
+        self.frame_peak.or_else(|| whole.then(|| Self::peak(self.pixels())))
     }
 
     /// Says what the largest component of the whole frame is.
@@ -144,10 +134,29 @@ impl Film {
         values.iter().flatten().fold(0.0, |peak, &v| if v > peak { v } else { peak })
     }
 
-    fn row_start(&self, x: u32, y: u32) -> usize {
-        let inside = Window { x, y, width: 1, height: 1 }.intersection(self.window).is_some();
-        assert!(inside, "pixel {x},{y} is outside the window {}", self.window);
-        (y - self.window.y) as usize * self.window.width as usize + (x - self.window.x) as usize
+    /// How many stops it is to be shown with, where that has been said.
+    #[must_use]
+    pub const fn stops(&self) -> Option<f64> {
+        self.stops
+    }
+
+    /// Says how many stops it is to be shown with, from -[`MOST_STOPS`] to
+    /// [`MOST_STOPS`]: a choice, or what [`auto_stops`](crate::auto_stops) finds
+    /// for the whole frame. Its values stay as they are.
+    ///
+    /// # Panics
+    /// Where `stops` is not in that range.
+    pub fn set_stops(&mut self, stops: f64) {
+        let possible = stops.abs() <= MOST_STOPS;
+        assert!(possible, "{stops} stops are not from -{MOST_STOPS} to {MOST_STOPS}");
+        self.stops = Some(stops);
+    }
+
+    /// What its values are multiplied by to be shown, 2^stops, where that has
+    /// been said.
+    #[must_use]
+    pub fn exposure(&self) -> Option<f64> {
+        self.stops.map(exposure_factor)
     }
 }
 
@@ -201,5 +210,27 @@ mod tests {
             Film::new(huge, huge.window(), DISPLAY),
             Err(FilmError::OutOfMemory { .. })
         ));
+    }
+
+    #[test]
+    fn stops_are_kept_beside_the_values() {
+        let frame = Size::new(2, 1);
+        let mut film = Film::new(frame, frame.window(), Display::Exposed).expect("fits");
+        film.put(frame.window(), &[[0.5, 1.0, 3e30], [0.0; 3]]);
+        assert_eq!((film.stops(), film.exposure()), (None, None));
+        film.set_stops(-3.0);
+        assert_eq!((film.stops(), film.exposure()), (Some(-3.0), Some(0.125)));
+        assert_eq!(film.pixel(0, 0), [0.5, 1.0, 3e30]);
+        assert_eq!(film.display().white(), 1.0);
+        film.set_stops(MOST_STOPS);
+        assert!(film.exposure().is_some_and(f64::is_finite));
+    }
+
+    #[test]
+    #[should_panic(expected = "NaN stops are not from -1000 to 1000")]
+    fn stops_are_numbers() {
+        let frame = Size::new(1, 1);
+        let mut film = Film::new(frame, frame.window(), Display::Exposed).expect("fits");
+        film.set_stops(f64::NAN);
     }
 }

@@ -1,7 +1,8 @@
 //! Picture buffers: what a renderer fills and an encoder reads.
 //!
 //! A [`Film`] holds linear values for a [`Window`] of a frame, and says how
-//! they are meant to be shown ([`Display`]). It knows no engine and no format.
+//! they are meant to be shown ([`Display`]); [`Layers`] beside it hold what is
+//! seen first at each pixel. They know no engine and no format.
 //!
 //! ```
 //! use lancer_film::{Display, Film, Size, Window};
@@ -14,10 +15,30 @@
 //! assert_eq!(film.pixel(0, 0), [0.0, 0.0, 0.0]);
 //! # Ok::<(), lancer_film::FilmError>(())
 //! ```
+//!
+//! Radiance is shown by an exposure, which a rule finds for the whole frame:
+//!
+//! ```
+//! use lancer_film::{Display, Film, Size, auto_stops};
+//!
+//! let frame = Size::new(3, 1);
+//! let mut film = Film::new(frame, frame.window(), Display::Exposed)?;
+//! film.put(frame.window(), &[[4.0, 3.0, 2.0], [0.0, 0.0, 0.0], [0.1, 0.5, 0.1]]);
+//! let mut brightest: Vec<f32> =
+//!     film.pixels().iter().map(|pixel| Film::peak(&[*pixel])).collect();
+//! film.set_stops(auto_stops(&mut brightest));
+//! assert_eq!(film.stops(), Some(-2.0));
+//! # Ok::<(), lancer_film::FilmError>(())
+//! ```
 #![forbid(unsafe_code)]
 
+mod exposure;
 mod film;
+mod grid;
+mod layers;
 mod window;
 
+pub use exposure::{MOST_STOPS, auto_stops, exposure_factor};
 pub use film::{Display, Film, FilmError};
+pub use layers::{LayerKind, LayerPixel, Layers};
 pub use window::{Size, Window};

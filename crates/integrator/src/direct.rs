@@ -20,6 +20,10 @@ impl Engine for Direct {
         crate::classic::warnings(scene)
     }
 
+    fn refusals(&self, scene: &Scene) -> Vec<String> {
+        crate::classic::refusals(scene)
+    }
+
     fn prepare<'s>(&'s self, scene: &'s Scene) -> Box<dyn Tracer + 's> {
         let world = World::new(scene);
         Box::new(DirectTracer {

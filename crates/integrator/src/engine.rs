@@ -1,5 +1,5 @@
-use crate::{Classic, Direct, RayCounts};
-use lancer_film::{Display, Window};
+use crate::{Classic, Direct, RayCounts, Whitted};
+use lancer_film::{Display, LayerPixel, Window};
 use lancer_scene::Scene;
 
 /// Red, green and blue in the unit of the film's [`Display`].
@@ -30,7 +30,14 @@ pub trait Engine: Sync {
         Vec::new()
     }
 
-    /// Makes ready to render `scene`.
+    /// What is in this scene that the engine cannot show, as sentences without
+    /// a full stop. Such a scene is not rendered.
+    fn refusals(&self, scene: &Scene) -> Vec<String> {
+        let _ = scene;
+        Vec::new()
+    }
+
+    /// Makes ready to render `scene`, which it does not refuse.
     fn prepare<'s>(&'s self, scene: &'s Scene) -> Box<dyn Tracer + 's>;
 }
 
@@ -43,6 +50,13 @@ pub trait Tracer: Sync {
     /// is at the top. Adds the rays followed to `counts`.
     fn pixel(&self, x: u32, y: u32, counts: &mut RayCounts) -> Rgb;
 
+    /// What the ray of the pixel's centre meets first; `None` where the engine
+    /// does not say.
+    fn first_hit(&self, x: u32, y: u32) -> Option<LayerPixel> {
+        let _ = (x, y);
+        None
+    }
+
     /// The colours of a tile, row by row; `pixels` has one place for each.
     fn tile(&self, tile: Window, pixels: &mut [Rgb], counts: &mut RayCounts) {
         let columns = tile.x..tile.x + tile.width;
@@ -54,10 +68,11 @@ pub trait Tracer: Sync {
     }
 }
 
-/// The engines that are built in.
+/// The engines that are built in; the first is the usual one.
 #[must_use]
 pub fn engines() -> &'static [&'static dyn Engine] {
-    &[&Classic, &Direct]
+    const WHITTED: Whitted = Whitted::new();
+    &[&WHITTED, &Classic, &Direct]
 }
 
 /// The built-in engine of that name.

@@ -28,11 +28,13 @@ mod counts;
 mod direct;
 mod engine;
 mod render;
+mod whitted;
 
 pub use classic::camera::PinholeCamera;
 pub use classic::engine::Classic;
 pub use classic::world::{Hit, SurfacePoint, World};
-pub use counts::RayCounts;
+pub use counts::{RayCounts, Trouble, Troubles};
 pub use direct::Direct;
 pub use engine::{Engine, Rgb, Tracer, engine_by_name, engines};
 pub use render::{Progress, RenderError, RenderSettings, Rendered, TILE_SIDE, render};
+pub use whitted::Whitted;

@@ -1,5 +1,5 @@
-//! Points, vectors and rays on top of nalgebra, and elementary functions
-//! that give the same bits on every machine.
+//! Points, vectors, rays, bounds and placements on top of nalgebra, and
+//! elementary functions that give the same bits on every machine.
 //!
 //! This is the lowest crate of Lancer. It knows no shape, no file and no
 //! thread. All coordinates are double precision, right-handed, with z up by
@@ -19,10 +19,17 @@
 //! ```
 #![forbid(unsafe_code)]
 
+mod bounds;
+mod degrees;
 pub mod elementary;
+mod placement;
 mod ray;
+pub mod srgb;
 mod unit;
 
+pub use bounds::Bounds;
+pub use degrees::sin_cos_degrees;
+pub use placement::Placement;
 pub use ray::Ray;
 pub use unit::unit;
 

@@ -1,43 +1,79 @@
 //! From the values of a film to the codes of a display.
 
+use crate::srgb_codes::{Codes8, code16};
 use lancer_film::{Display, Film};
 
-/// A film of a part of a frame cannot be shown by a rule that looks at the
-/// whole frame.
+/// Why a film cannot be shown: it does not know enough of the frame that it is
+/// of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "the brightness of the whole frame must be known to show a part of it: render with the \
-     frame's peak"
-)]
-pub struct PeakUnknown;
+pub enum NotShowable {
+    /// A film of a part of a frame cannot be shown by a rule that looks at the
+    /// whole frame.
+    #[error(
+        "the brightness of the whole frame must be known to show a part of it: render with the \
+         frame's peak"
+    )]
+    PeakUnknown,
+    /// A film of radiance cannot be shown without an exposure.
+    #[error(
+        "the exposure must be known to show radiance: set the film's stops, to a choice or to \
+         what is found for the whole frame"
+    )]
+    ExposureUnknown,
+}
 
-/// The factor from the film's values to codes up to `top`, before truncation.
-fn scale(film: &Film, top: f32) -> Result<f32, PeakUnknown> {
+/// Codes from 0 to 255 for each component, row by row.
+pub(crate) fn codes8(film: &Film) -> Result<Vec<u8>, NotShowable> {
+    let values = film.pixels().iter().flatten();
     match film.display() {
         Display::Brightest { white } => {
-            let peak = film.frame_peak().ok_or(PeakUnknown)?;
-            Ok(top / if peak > white { peak } else { white })
+            let scale = scale(film, white, 255.0)?;
+            // The conversion truncates, and turns NaN and negative numbers into 0.
+            Ok(values.map(|v| (v * scale) as u8).collect())
+        }
+        Display::Exposed => {
+            let factor = film.exposure().ok_or(NotShowable::ExposureUnknown)?;
+            let codes = Codes8::table();
+            Ok(values.map(|v| codes.code(f64::from(*v) * factor)).collect())
         }
     }
 }
 
-/// Codes from 0 to 255 for each component, row by row.
-pub(crate) fn codes8(film: &Film) -> Result<Vec<u8>, PeakUnknown> {
-    let scale = scale(film, 255.0)?;
-    // The conversion truncates, and turns NaN and negative numbers into 0.
-    Ok(film.pixels().iter().flatten().map(|v| (v * scale) as u8).collect())
-}
-
 /// Codes from 0 to 65535 for each component, row by row.
-pub(crate) fn codes16(film: &Film) -> Result<Vec<u16>, PeakUnknown> {
-    let scale = scale(film, 65535.0)?;
-    Ok(film.pixels().iter().flatten().map(|v| (v * scale) as u16).collect())
+pub(crate) fn codes16(film: &Film) -> Result<Vec<u16>, NotShowable> {
+    let values = film.pixels().iter().flatten();
+    match film.display() {
+        Display::Brightest { white } => {
+            let scale = scale(film, white, 65535.0)?;
+            Ok(values.map(|v| (v * scale) as u16).collect())
+        }
+        Display::Exposed => {
+            let factor = film.exposure().ok_or(NotShowable::ExposureUnknown)?;
+            Ok(values.map(|v| code16(f64::from(*v) * factor)).collect())
+        }
+    }
 }
 
-/// Linear values, 1 being display white, for each component, row by row.
+/// The factor of [`Display::Brightest`] from the film's values to codes up to
+/// `top`, before truncation.
+fn scale(film: &Film, white: f32, top: f32) -> Result<f32, NotShowable> {
+    let peak = film.frame_peak().ok_or(NotShowable::PeakUnknown)?;
+    Ok(top / if peak > white { peak } else { white })
+}
+
+/// Linear values, 1 being display white (for radiance at 0 stops: its exposure
+/// is not applied), for each component, row by row.
 pub(crate) fn linear(film: &Film) -> impl Iterator<Item = f32> {
-    let white = film.display().white();
-    film.pixels().iter().flatten().map(move |v| v / white)
+    let display = film.display();
+    film.pixels().iter().flatten().map(move |v| linear_value(display, *v))
+}
+
+/// The linear value of one component; for radiance the very bits.
+pub(crate) fn linear_value(display: Display, v: f32) -> f32 {
+    match display {
+        Display::Brightest { white } => v / white,
+        Display::Exposed => v,
+    }
 }
 
 /// The film as a display of 8 bits shows it.
@@ -47,7 +83,7 @@ pub(crate) fn linear(film: &Film) -> impl Iterator<Item = f32> {
 ///
 /// # Panics
 /// Never: the buffer has the size that the film says.
-pub fn to_rgb8(film: &Film) -> Result<image::RgbImage, PeakUnknown> {
+pub fn to_rgb8(film: &Film) -> Result<image::RgbImage, NotShowable> {
     let window = film.window();
     let image = image::RgbImage::from_raw(window.width, window.height, codes8(film)?);
     Ok(image.expect("three codes for each pixel"))
@@ -100,8 +136,65 @@ mod tests {
         let mut crop =
             Film::new(frame, window, Display::Brightest { white: 255.0 }).expect("it fits");
         crop.put(window, &[[100.0; 3]]);
-        assert_eq!(codes8(&crop), Err(PeakUnknown));
+        assert_eq!(codes8(&crop), Err(NotShowable::PeakUnknown));
         crop.set_frame_peak(510.0);
         assert_eq!(codes8(&crop), Ok(vec![50; 3]));
+    }
+
+    fn exposed(values: &[[f32; 3]], stops: f64) -> Film {
+        let frame = Size::new(values.len() as u32, 1);
+        let mut film = Film::new(frame, frame.window(), Display::Exposed).expect("it fits");
+        film.put(frame.window(), values);
+        film.set_stops(stops);
+        film
+    }
+
+    #[test]
+    fn radiance_is_encoded_and_rounded() {
+        let film = exposed(&[[0.0, 0.5, 1.0], [0.25, 0.002, 0.18]], 0.0);
+        // 187.516, 136.96, 6.589 and 117.65 before rounding.
+        assert_eq!(codes8(&film), Ok(vec![0, 188, 255, 137, 7, 118]));
+        assert_eq!(codes16(&film), Ok(vec![0, 48192, 65535, 35199, 1693, 30235]));
+        assert_eq!(linear(&film).collect::<Vec<_>>(), [0.0, 0.5, 1.0, 0.25, 0.002, 0.18]);
+    }
+
+    #[test]
+    fn a_stop_doubles_what_is_shown_and_not_what_is_kept() {
+        let values: Vec<_> = (0..200_u8).map(|i| [0.01 * f32::from(i), 0.3, 7.0]).collect();
+        let halves: Vec<_> = values.iter().map(|pixel| pixel.map(|v| v / 2.0)).collect();
+        for stops in [-3.0, -0.578_125, 0.0, 4.25] {
+            let (one, other) = (exposed(&values, stops), exposed(&halves, stops + 1.0));
+            assert_eq!(codes8(&one), codes8(&other));
+            assert_eq!(codes16(&one), codes16(&other));
+            assert!(linear(&one).eq(values.iter().flatten().copied()));
+        }
+    }
+
+    #[test]
+    fn a_bad_pixel_is_black_or_white_and_alone() {
+        let good = [[0.2, 0.4, 0.8], [0.6, 0.1, 0.3]];
+        for stops in [0.0, -2.5, 1000.0, -1000.0] {
+            let expected = (codes8(&exposed(&good, stops)), codes16(&exposed(&good, stops)));
+            let expected = (expected.0.expect("it shows"), expected.1.expect("it shows"));
+            for bad in [f32::NAN, -f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1.0, -0.0] {
+                let film = exposed(&[good[0], [bad; 3], good[1]], stops);
+                let eight = codes8(&film).expect("it shows");
+                let sixteen = codes16(&film).expect("it shows");
+                let (top8, top16) = if bad == f32::INFINITY { (255, 65535) } else { (0, 0) };
+                assert_eq!((&eight[..3], &eight[6..]), expected.0.split_at(3), "{bad}");
+                assert_eq!((&sixteen[..3], &sixteen[6..]), expected.1.split_at(3), "{bad}");
+                assert_eq!((&eight[3..6], &sixteen[3..6]), (&[top8; 3][..], &[top16; 3][..]));
+            }
+        }
+    }
+
+    #[test]
+    fn radiance_needs_an_exposure() {
+        let frame = Size::new(1, 1);
+        let film = Film::new(frame, frame.window(), Display::Exposed).expect("it fits");
+        assert_eq!(codes8(&film), Err(NotShowable::ExposureUnknown));
+        assert_eq!(codes16(&film), Err(NotShowable::ExposureUnknown));
+        assert!(NotShowable::ExposureUnknown.to_string().contains("set the film's stops"));
+        assert_eq!(linear(&film).count(), 3, "linear values need none");
     }
 }

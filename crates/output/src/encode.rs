@@ -1,11 +1,11 @@
-use crate::display::{PeakUnknown, codes8, codes16, linear};
+use crate::display::{NotShowable, codes8, codes16, linear};
 use crate::{Bits, Format};
 use image::codecs::{
     bmp::BmpEncoder, jpeg::JpegEncoder, openexr::OpenExrEncoder, png::PngEncoder, qoi::QoiEncoder,
     tga::TgaEncoder, tiff::TiffEncoder, webp::WebPEncoder,
 };
 use image::{ExtendedColorType, ImageEncoder};
-use lancer_film::Film;
+use lancer_film::{Film, Size, Window};
 use std::io::Cursor;
 
 /// Why a film could not become a file.
@@ -13,10 +13,21 @@ use std::io::Cursor;
 pub enum EncodeError {
     /// The film does not know enough of its frame.
     #[error(transparent)]
-    Peak(#[from] PeakUnknown),
+    NotShowable(#[from] NotShowable),
     /// The format has no such number of bits.
     #[error("the format {} has 8 bits for each component, not 16", .0.name())]
     Bits(Format),
+    /// The layers are not those of the film's pixels.
+    #[error(
+        "the layers are of the window {} (x,y,width,height) of {} pixels, the film of {} of {}",
+        .layers.1, .layers.0, .film.1, .film.0
+    )]
+    OtherWindow {
+        /// The frame and the window of the film.
+        film: (Size, Window),
+        /// Those of the layers.
+        layers: (Size, Window),
+    },
     /// The encoder refused, because the picture is too large for the format or
     /// memory does not suffice.
     #[error("cannot write this picture as {}: {reason}", .format.name())]
@@ -31,7 +42,8 @@ pub enum EncodeError {
 /// How good JPEG pictures are, out of 100.
 const JPEG_QUALITY: u8 = 95;
 
-/// The bytes of a picture file. `bits` means nothing for linear formats.
+/// The bytes of a picture file. `bits` means nothing for linear formats; neither
+/// does an exposure, they hold the radiance itself.
 ///
 /// # Errors
 /// Where the format cannot hold the picture.
@@ -148,6 +160,28 @@ mod tests {
                 }
                 Err(error) => assert!(matches!(error, EncodeError::Bits(_)), "{error}"),
             }
+        }
+    }
+
+    #[test]
+    fn exr_holds_radiance_before_exposure() {
+        let frame = Size::new(2, 1);
+        let mut film = Film::new(frame, frame.window(), Display::Exposed).expect("it fits");
+        film.put(frame.window(), &[[0.1, 7.0, 1e-30], [3e30, 0.0, 0.7]]);
+        let without = encode(&film, Format::Exr, Bits::Eight).expect("it encodes");
+        film.set_stops(-5.5);
+        assert_eq!(encode(&film, Format::Exr, Bits::Eight).expect("it encodes"), without);
+        let image = image::load_from_memory(&without).expect("it decodes").into_rgb32f();
+        assert!(image.pixels().map(|pixel| pixel.0).eq(film.pixels().iter().copied()));
+    }
+
+    #[test]
+    fn a_film_without_exposure_is_refused_by_formats_of_codes() {
+        let frame = Size::new(1, 1);
+        let film = Film::new(frame, frame.window(), Display::Exposed).expect("it fits");
+        for bits in [Bits::Eight, Bits::Sixteen] {
+            let error = encode(&film, Format::Png, bits).expect_err("it says so");
+            assert!(error.to_string().starts_with("the exposure must be known"), "{error}");
         }
     }
 

@@ -7,7 +7,7 @@ pub enum Format {
     Ppm,
     /// Portable Network Graphics.
     Png,
-    /// OpenEXR: linear values, 1 is display white.
+    /// OpenEXR: linear values, 1 is display white (at 0 stops, for radiance).
     Exr,
     /// Windows bitmap.
     Bmp,

@@ -1,4 +1,9 @@
-use crate::{Camera, InvalidField, InvalidScene, Light, OutOfRange, Scene, Shape};
+use crate::{
+    Camera, Group, InvalidField, InvalidScene, Light, OutOfRange, Placed, Scene, Shadows, Shape,
+    Spectrum,
+};
+use lancer_math::Placement;
+use std::sync::Arc;
 
 /// Collects the parts of a scene and, at the end, all that is wrong with them.
 ///
@@ -12,6 +17,10 @@ pub struct SceneBuilder {
     lights_given: usize,
     shapes: Vec<Shape>,
     shapes_given: usize,
+    shadows: Shadows,
+    background: Spectrum,
+    groups: Vec<Placed>,
+    groups_given: usize,
     mistakes: Vec<InvalidField>,
 }
 
@@ -52,6 +61,37 @@ impl SceneBuilder {
         self
     }
 
+    /// Says what transparent things do to light on its way to a surface.
+    #[must_use]
+    pub const fn shadows(mut self, shadows: Shadows) -> Self {
+        self.shadows = shadows;
+        self
+    }
+
+    /// Sets the radiance of what is behind everything; black without it.
+    #[must_use]
+    pub fn background(mut self, radiance: Result<Spectrum, OutOfRange>) -> Self {
+        match radiance {
+            Ok(radiance) => self.background = radiance,
+            Err(e) => self.mistakes.push(e.in_field("background")),
+        }
+        self
+    }
+
+    /// Adds a group; [`Arc`] lets several places share one.
+    #[must_use]
+    pub fn group(mut self, placement: Placement, group: impl Into<Arc<Group>>) -> Self {
+        let placed = Placed { placement, group: group.into() };
+        if !placement.is_finite() {
+            let found = OutOfRange::new("not finite", "finite numbers");
+            let field = format!("groups[{}].placement", self.groups_given);
+            self.mistakes.push(found.in_field(field));
+        }
+        self.groups.push(placed);
+        self.groups_given += 1;
+        self
+    }
+
     /// The scene.
     ///
     /// # Errors
@@ -61,10 +101,19 @@ impl SceneBuilder {
         if !self.camera_given {
             self.mistakes.push(OutOfRange::new("missing", "exactly one").in_field("camera"));
         }
+        // Whether it is too much to be prepared.
+        if let Err(e) = Group::new(None, Vec::new(), self.groups.clone()) {
+            self.mistakes.push(e.in_field("groups"));
+        }
         match self.camera {
-            Some(camera) if self.mistakes.is_empty() => {
-                Ok(Scene { camera, lights: self.lights, shapes: self.shapes })
-            }
+            Some(camera) if self.mistakes.is_empty() => Ok(Scene {
+                camera,
+                lights: self.lights,
+                shadows: self.shadows,
+                background: self.background,
+                shapes: self.shapes,
+                groups: self.groups,
+            }),
             _ => Err(InvalidScene { mistakes: self.mistakes }),
         }
     }

@@ -1,24 +1,76 @@
-use crate::{InvalidField, Length, OutOfRange, PixelCount, Position};
+use crate::{Degrees, Direction, InvalidField, Length, OutOfRange, PixelCount, Position};
+use lancer_math::{Vector, sin_cos_degrees};
 
-/// A pinhole camera that looks from a point at a point, with z up.
-///
-/// `target` lies in the image plane, at its centre; the plane is `width` wide
-/// and `width * px_height / px_width` high, and its lower edge is horizontal.
+/// A camera that looks from a point at a point, with z up unless it says
+/// otherwise.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Camera {
     origin: Position,
     target: Position,
-    /// The width of the image plane, in scene lengths.
-    pub width: Length,
+    /// How space is brought onto the picture.
+    pub projection: Projection,
+    /// Which way is up in the picture; need not be perpendicular to the view.
+    pub up: Direction,
+    /// How far the camera is turned about its axis, clockwise as seen from
+    /// behind it: the picture turns counterclockwise.
+    pub roll: Degrees,
+    /// How radiance becomes brightness on a display.
+    pub exposure: Exposure,
     /// The width of the picture in pixels.
     pub px_width: PixelCount,
     /// The height of the picture in pixels.
     pub px_height: PixelCount,
 }
 
+/// How space is brought onto the picture, whose pixels are square.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Projection {
+    /// Through a point: `target` lies in the image plane, at its centre, and the
+    /// plane is so wide.
+    Pinhole(Length),
+    /// Through a point: the picture's left and right edge are so many degrees
+    /// apart; above 0 and below 180.
+    FieldOfView(Degrees),
+    /// Along parallel rays from the plane through `origin` across the view, so
+    /// wide.
+    Orthographic(Length),
+}
+
+/// How radiance becomes brightness on a display.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Exposure {
+    /// By what is in the picture.
+    #[default]
+    Auto,
+    /// Times 2 to so many stops.
+    Stops(Stops),
+}
+
+/// A number of stops: each doubles the brightness; from -1000 to 1000.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Default)]
+pub struct Stops(f64);
+
+impl Stops {
+    /// # Errors
+    /// Where `value` is not from -1000 to 1000.
+    pub fn new(value: f64) -> Result<Self, OutOfRange> {
+        if (-1000.0..=1000.0).contains(&value) {
+            Ok(Self(value + 0.0))
+        } else {
+            Err(OutOfRange::new(value, "a number of stops from -1000 to 1000"))
+        }
+    }
+
+    /// The number itself.
+    #[must_use]
+    pub const fn get(self) -> f64 {
+        self.0
+    }
+}
+
 impl Camera {
-    /// A camera at `origin` that looks at `target`, with an image plane
-    /// `width` wide and a picture of `pixels` (width, height).
+    /// A pinhole camera at `origin` that looks at `target`, with an image plane
+    /// `width` wide there and a picture of `pixels` (width, height).
     ///
     /// # Errors
     /// Where a number is not finite, `width` or a side of the picture is not
@@ -34,7 +86,8 @@ impl Camera {
         let width = Length::new(width).map_err(|e| e.in_field("width"))?;
         let px_width = PixelCount::new(pixels[0]).map_err(|e| e.in_field("px_width"))?;
         let px_height = PixelCount::new(pixels[1]).map_err(|e| e.in_field("px_height"))?;
-        Self::from_values(origin, target, width, px_width, px_height)
+        let projection = Projection::Pinhole(width);
+        Self::from_values(origin, target, projection, px_width, px_height)
             .map_err(|e| e.in_field("target"))
     }
 
@@ -45,7 +98,7 @@ impl Camera {
     pub fn from_values(
         origin: Position,
         target: Position,
-        width: Length,
+        projection: Projection,
         px_width: PixelCount,
         px_height: PixelCount,
     ) -> Result<Self, OutOfRange> {
@@ -56,7 +109,44 @@ impl Camera {
                 "a point other than the origin",
             ));
         }
-        Ok(Self { origin, target, width, px_width, px_height })
+        Ok(Self {
+            origin,
+            target,
+            projection,
+            up: Direction::Z,
+            roll: Degrees::ZERO,
+            exposure: Exposure::Auto,
+            px_width,
+            px_height,
+        })
+    }
+
+    /// The same camera with a field of view of so many degrees from left to
+    /// right.
+    ///
+    /// # Errors
+    /// Where it is not above 0 and below 180.
+    pub fn field_of_view(self, degrees: f64) -> Result<Self, InvalidField> {
+        let view = Degrees::view(degrees).map_err(|e| e.in_field("fov"))?;
+        Ok(Self { projection: Projection::FieldOfView(view), ..self })
+    }
+
+    /// The same camera with parallel rays and a picture `width` wide.
+    ///
+    /// # Errors
+    /// Where `width` is not a finite number above 0.
+    pub fn orthographic(self, width: f64) -> Result<Self, InvalidField> {
+        let width = Length::new(width).map_err(|e| e.in_field("width"))?;
+        Ok(Self { projection: Projection::Orthographic(width), ..self })
+    }
+
+    /// The same camera, exposed by so many stops.
+    ///
+    /// # Errors
+    /// Where `stops` is not from -1000 to 1000.
+    pub fn stops(self, stops: f64) -> Result<Self, InvalidField> {
+        let stops = Stops::new(stops).map_err(|e| e.in_field("exposure"))?;
+        Ok(Self { exposure: Exposure::Stops(stops), ..self })
     }
 
     /// Where the eye is.
@@ -65,9 +155,23 @@ impl Camera {
         self.origin
     }
 
-    /// The centre of the image plane; never the eye itself.
+    /// The centre of the picture; never the eye itself.
     #[must_use]
     pub const fn target(&self) -> Position {
         self.target
+    }
+
+    /// The width of the plane of the picture: through `target`, or through
+    /// `origin` where rays are parallel.
+    #[must_use]
+    pub fn plane_width(&self) -> f64 {
+        match self.projection {
+            Projection::Pinhole(width) | Projection::Orthographic(width) => width.get(),
+            Projection::FieldOfView(angle) => {
+                let (sine, cosine) = sin_cos_degrees(angle.get() / 2.0);
+                let distance: Vector = self.target.get() - self.origin.get();
+                2.0 * distance.norm() * (sine / cosine)
+            }
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! The description of a scene: camera, lights and shapes with their surfaces.
 //!
 //! Everything here is plain data made of values that cannot be wrong: a
-//! [`Length`] is positive, a [`Gloss`] lies in [0, 1], a [`Direction`] is not
+//! [`Length`] is positive, a [`Fraction`] lies in [0, 1], a [`Direction`] is not
 //! zero, and so on. So whoever holds a [`Scene`] need not check it again.
 //! This crate knows no file, no XML and no way of finding a hit faster.
 //!
@@ -34,22 +34,33 @@
 mod builder;
 mod camera;
 mod colour;
+mod colour_names;
 mod custom;
 mod dump;
 mod error;
+mod group;
 mod light;
+mod mesh;
 mod scene;
 mod shape;
+mod sheets;
+mod solids;
 mod surface;
 mod values;
 
 pub use builder::SceneBuilder;
-pub use camera::Camera;
-pub use colour::Colour;
+pub use camera::{Camera, Exposure, Projection, Stops};
+pub use colour::{Colour, LinearColour};
 pub use custom::CustomShape;
 pub use error::{InvalidField, InvalidScene, OutOfRange};
-pub use light::Light;
+pub use group::{Group, Placed};
+pub use light::{Beam, Falloff, Light, Shadows};
+pub use mesh::{Mesh, MeshError};
 pub use scene::Scene;
-pub use shape::{Geometry, IntoSurface, Plane, Shape, Sphere};
-pub use surface::{Pattern, Surface};
-pub use values::{Brightness, Direction, Gloss, Length, PixelCount, Position};
+pub use shape::{Geometry, IntoSurface, Shape};
+pub use sheets::{Disc, Plane, Rectangle, Triangle};
+pub use solids::{Cone, Cuboid, Sphere, Tetrahedron, Torus};
+pub use surface::{Checker, Medium, Pattern, Surface};
+pub use values::{
+    Brightness, Degrees, Direction, Fraction, Ior, Length, PixelCount, Position, Spectrum,
+};

@@ -41,6 +41,9 @@ impl Position {
 pub struct Direction(Vector);
 
 impl Direction {
+    /// Straight up.
+    pub const Z: Self = Self(Vector::new(0.0, 0.0, 1.0));
+
     /// The vector (x, y, z), kept as it is: it is not made a unit vector.
     ///
     /// # Errors
@@ -86,24 +89,22 @@ impl Length {
     }
 }
 
-/// The fraction of light that a surface mirrors, in [0, 1].
-///
-/// Single precision, as the original program computes with it.
-#[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
-pub struct Gloss(f32);
+/// A number from 0 to 1: a share of the light.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Default)]
+pub struct Fraction(f64);
 
-impl Gloss {
-    /// No mirroring at all.
-    pub const MATTE: Self = Self(0.0);
+impl Fraction {
+    /// Nothing.
+    pub const NONE: Self = Self(0.0);
+    /// All.
+    pub const ALL: Self = Self(1.0);
 
-    /// Rounds `value` to single precision.
-    ///
     /// # Errors
     /// Where `value` is not in [0, 1].
     pub fn new(value: f64) -> Result<Self, OutOfRange> {
         if (0.0..=1.0).contains(&value) {
             // `+ 0.0` turns -0 into 0, so that equal scenes have equal dumps.
-            Ok(Self(value as f32 + 0.0))
+            Ok(Self(value + 0.0))
         } else {
             Err(OutOfRange::new(value, "a number from 0 to 1"))
         }
@@ -111,7 +112,131 @@ impl Gloss {
 
     /// The fraction itself.
     #[must_use]
-    pub const fn get(self) -> f32 {
+    pub const fn get(self) -> f64 {
+        self.0
+    }
+}
+
+/// An index of refraction: the speed of light in empty space over that in the
+/// medium; finite and above 0.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
+pub struct Ior(f64);
+
+impl Ior {
+    /// That of empty space, and of the air around a scene.
+    pub const AIR: Self = Self(1.0);
+    /// That of a transparent surface that does not say: ordinary glass.
+    pub const GLASS: Self = Self(1.5);
+
+    /// # Errors
+    /// Where `value` is NaN, infinite, zero or negative.
+    pub fn new(value: f64) -> Result<Self, OutOfRange> {
+        Length::new(value).map(|length| Self(length.get()))
+    }
+
+    /// The index itself.
+    #[must_use]
+    pub const fn get(self) -> f64 {
+        self.0
+    }
+}
+
+/// Red, green and blue, each finite and at least 0, without an upper end: a
+/// radiance (linear, 1 is what a white surface shows that a light of
+/// brightness 1 strikes squarely), or an absorption for each unit of length.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Spectrum([f64; 3]);
+
+impl Spectrum {
+    /// Nothing in any component.
+    pub const NONE: Self = Self([0.0; 3]);
+
+    /// # Errors
+    /// Where a component is NaN, infinite or negative.
+    pub fn new(rgb: [f64; 3]) -> Result<Self, OutOfRange> {
+        if rgb.iter().all(|c| *c >= 0.0 && c.is_finite()) {
+            Ok(Self(rgb.map(|c| c + 0.0)))
+        } else {
+            Err(OutOfRange::new(triple(rgb), "finite numbers of at least 0"))
+        }
+    }
+
+    /// The components themselves.
+    #[must_use]
+    pub const fn get(self) -> [f64; 3] {
+        self.0
+    }
+
+    /// Whether all components are 0.
+    #[must_use]
+    pub fn is_none(self) -> bool {
+        self == Self::NONE
+    }
+}
+
+/// An angle in degrees: finite.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Default)]
+pub struct Degrees(f64);
+
+impl Degrees {
+    /// No turn.
+    pub const ZERO: Self = Self(0.0);
+
+    /// Any angle.
+    ///
+    /// # Errors
+    /// Where `value` is NaN or infinite.
+    pub fn new(value: f64) -> Result<Self, OutOfRange> {
+        if value.is_finite() {
+            Ok(Self(value + 0.0))
+        } else {
+            Err(OutOfRange::new(value, "a finite angle in degrees"))
+        }
+    }
+
+    /// An angle of view.
+    ///
+    /// # Errors
+    /// Where `value` is not above 0 and below 180.
+    pub fn view(value: f64) -> Result<Self, OutOfRange> {
+        if value > 0.0 && value < 180.0 {
+            Ok(Self(value))
+        } else {
+            Err(OutOfRange::new(value, "an angle above 0 and below 180 degrees"))
+        }
+    }
+
+    /// An angle between a direction and an axis.
+    ///
+    /// # Errors
+    /// Where `value` is not from 0 to 180.
+    pub fn from_axis(value: f64) -> Result<Self, OutOfRange> {
+        if (0.0..=180.0).contains(&value) {
+            Ok(Self(value + 0.0))
+        } else {
+            Err(OutOfRange::new(value, "an angle from 0 to 180 degrees"))
+        }
+    }
+
+    /// The side of the cells of a checker around an axis.
+    ///
+    /// # Errors
+    /// Where `value` does not divide 180 (to a millionth of a cell), so that
+    /// colours would not alternate all around.
+    pub fn dividing_180(value: f64) -> Result<Self, OutOfRange> {
+        let cells = 180.0 / value;
+        let whole = libm::rint(cells);
+        if value > 0.0 && (1.0..=1e6).contains(&whole) && (cells - whole).abs() <= 1e-6 {
+            // The nearest double to what was meant: 180 / 7 has no end.
+            Ok(Self(180.0 / whole))
+        } else {
+            Err(OutOfRange::new(value, "an angle in degrees that divides 180"))
+        }
+    }
+
+    /// The angle itself.
+    #[must_use]
+    pub const fn get(self) -> f64 {
         self.0
     }
 }
@@ -133,8 +258,8 @@ impl Brightness {
         }
     }
 
-    /// The value itself. A white surface that a light of brightness 1 strikes
-    /// squarely shows display white.
+    /// The value itself: the radiance that a white matte surface shows when it
+    /// faces a lamp squarely from distance 1, or a sun squarely.
     #[must_use]
     pub const fn get(self) -> f64 {
         self.0
@@ -177,7 +302,11 @@ mod tests {
     fn nothing_that_is_not_a_number_gets_in() {
         for bad in BAD {
             assert!(Length::new(bad).is_err());
-            assert!(Gloss::new(bad).is_err());
+            assert!(Fraction::new(bad).is_err());
+            assert!(Ior::new(bad).is_err());
+            assert!(Degrees::new(bad).is_err() && Degrees::view(bad).is_err());
+            assert!(Degrees::from_axis(bad).is_err() && Degrees::dividing_180(bad).is_err());
+            assert!(Spectrum::new([0.0, bad, 1.0]).is_err());
             assert!(Brightness::new(bad).is_err());
             for axis in 0..3 {
                 let mut xyz = [1.0; 3];
@@ -193,8 +322,16 @@ mod tests {
         assert!(Length::new(0.0).is_err());
         assert!(Length::new(-0.0).is_err());
         assert!(Length::new(5e-324).is_ok());
-        assert!(Gloss::new(0.0).is_ok() && Gloss::new(1.0).is_ok());
-        assert!(Gloss::new(-1e-9).is_err() && Gloss::new(1.000_000_001).is_err());
+        assert!(Fraction::new(0.0).is_ok() && Fraction::new(1.0).is_ok());
+        assert!(Fraction::new(-1e-9).is_err() && Fraction::new(1.000_000_001).is_err());
+        assert!(Ior::new(0.0).is_err() && Ior::new(0.75).is_ok());
+        assert!(Spectrum::new([0.0, -1e-9, 0.0]).is_err() && Spectrum::new([1e30; 3]).is_ok());
+        assert!(Degrees::view(0.0).is_err() && Degrees::view(180.0).is_err());
+        assert!(Degrees::from_axis(180.0).is_ok() && Degrees::from_axis(-1.0).is_err());
+        assert!(Degrees::dividing_180(30.0).is_ok() && Degrees::dividing_180(25.714_285_7).is_ok());
+        for bad in [0.0, -30.0, 181.0, 50.0, 1e-9] {
+            assert!(Degrees::dividing_180(bad).is_err(), "{bad}");
+        }
         assert!(Brightness::new(0.0).is_ok());
         assert!(Brightness::new(-5e-324).is_err());
         assert!(Direction::new([0.0, -0.0, 0.0]).is_err());

@@ -2,17 +2,18 @@
 //! is reported here, for all elements alike.
 
 use crate::document::start_of;
-use crate::number::{self, NotANumber, trim};
-use crate::schema::{Child, Element, Times, parents_of};
+use crate::number::trim;
+use crate::schema::{Attribute, Child, Element, Need, Times, parents_of};
 use crate::{Diagnostic, suggest};
-use lancer_scene::OutOfRange;
-use roxmltree::{Attribute, Node};
+use roxmltree::Node;
 use std::ops::Range;
 
 /// An element that has been checked against its table.
 pub(crate) struct Reader<'a, 'i> {
-    node: Node<'a, 'i>,
-    element: &'static Element,
+    pub(crate) node: Node<'a, 'i>,
+    pub(crate) element: &'static Element,
+    /// The attributes that unknown ones were taken for.
+    meant: Vec<&'static str>,
 }
 
 impl<'a, 'i> Reader<'a, 'i> {
@@ -22,7 +23,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         element: &'static Element,
         out: &mut Vec<Diagnostic>,
     ) -> Self {
-        let reader = Self { node, element };
+        let mut reader = Self { node, element, meant: Vec::new() };
         reader.check_namespace(out);
         reader.check_attributes(out);
         reader.check_children(out);
@@ -54,50 +55,106 @@ impl<'a, 'i> Reader<'a, 'i> {
         }
     }
 
-    fn check_attributes(&self, out: &mut Vec<Diagnostic>) {
-        let names = self.element.attributes.iter().map(|attribute| attribute.name);
-        let missing = self.element.attributes.iter().filter(|attribute| {
-            attribute.required && self.node.attribute(attribute.name).is_none()
-        });
-        let mut missing: Vec<_> = missing.collect();
+    fn check_attributes(&mut self, out: &mut Vec<Diagnostic>) {
         for attribute in self.node.attributes() {
-            let known = attribute.namespace().is_none()
-                && names.clone().any(|name| name == attribute.name());
-            if known {
+            let name = attribute.name();
+            let mut all = self.element.all_attributes();
+            if attribute.namespace().is_none() && all.any(|known| known.name == name) {
                 continue;
             }
+            let names = self.element.all_attributes().map(|known| known.name);
+            let slip = self.element.slips.iter().find(|(slip, _)| *slip == name);
             // What looks like a missing attribute is that one, misspelt.
-            let meant = suggest::nearest(attribute.name(), missing.iter().map(|a| a.name));
-            missing.retain(|attribute| Some(attribute.name) != meant);
+            let meant = match slip {
+                Some(_) => None,
+                None => suggest::nearest(name, names.clone().filter(|name| !self.has(name))),
+            };
+            self.meant.extend(meant);
             let what = format!("<{}> has", self.element.name);
             out.push(
                 Diagnostic::error(
                     attribute.range_qname(),
-                    format!(
-                        "unknown attribute `{}` of <{}>",
-                        shorten(attribute.name()),
-                        self.element.name
-                    ),
-                    match self.element.attributes {
-                        [] => "expected no attribute here",
-                        _ => "not an attribute of this element",
+                    format!("unknown attribute `{}` of <{}>", shorten(name), self.element.name),
+                    match names.clone().next() {
+                        None => "expected no attribute here",
+                        Some(_) => "not an attribute of this element",
                     },
                 )
-                .help(match meant {
-                    Some(name) => Some(format!("did you mean `{name}`?")),
-                    None => suggest::help(attribute.name(), names.clone(), &what),
+                .help(match (slip, meant) {
+                    (Some((_, help)), _) => Some((*help).to_owned()),
+                    (None, Some(name)) => Some(format!("did you mean `{name}`?")),
+                    (None, None) => suggest::help(name, names, &what),
                 }),
             );
         }
-        for attribute in missing {
-            out.push(Diagnostic::error(
-                self.start(),
-                format!("<{}> lacks the attribute `{}`", self.element.name, attribute.name),
-                format!(
-                    "expected `{}=\"...\"`, a {}: {}",
-                    attribute.name, attribute.values, attribute.meaning
-                ),
-            ));
+        for attribute in self.element.attributes {
+            if attribute.need == Need::Required {
+                self.demand(attribute, out);
+            }
+        }
+        self.check_one_of(out);
+    }
+
+    /// Whether the attribute is there, or one that was taken for it.
+    fn has_or_means(&self, name: &str) -> bool {
+        self.has(name) || self.meant.contains(&name)
+    }
+
+    /// Reports an attribute that is missing.
+    pub(crate) fn demand(&self, attribute: &Attribute, out: &mut Vec<Diagnostic>) {
+        if self.has_or_means(attribute.name) {
+            return;
+        }
+        out.push(Diagnostic::error(
+            self.start(),
+            format!("<{}> lacks the attribute `{}`", self.element.name, attribute.name),
+            format!(
+                "expected `{}=\"...\"`, {}: {}",
+                attribute.name,
+                with_article(attribute.values),
+                // The first of what may be several sentences.
+                attribute.meaning.split(". ").next().unwrap_or_default()
+            ),
+        ));
+    }
+
+    fn check_one_of(&self, out: &mut Vec<Diagnostic>) {
+        let sets = self.element.one_of;
+        let begun = |set: &&&[&str]| set.iter().any(|name| self.has_or_means(name));
+        let mut begun = sets.iter().filter(begun);
+        match (begun.next(), begun.next()) {
+            (Some(first), Some(second)) => {
+                let given = |set: &[&'static str]| {
+                    set.iter().copied().find(|name| self.has_or_means(name)).unwrap_or_default()
+                };
+                let (first, second) = (given(first), given(second));
+                out.push(
+                    Diagnostic::error(
+                        self.name_span_of(second),
+                        format!("<{}> has both `{first}` and `{second}`", self.element.name),
+                        "expected only one of them",
+                    )
+                    .related(self.name_span_of(first), "the other one is here"),
+                );
+            }
+            (Some(set), None) => {
+                let named = |a: &&'static Attribute| set.contains(&a.name);
+                self.element.all_attributes().filter(named).for_each(|a| self.demand(a, out));
+            }
+            (None, _) if sets.is_empty() => {}
+            (None, _) => {
+                let list = |set: &&[&str]| {
+                    let names: Vec<_> = set.iter().map(|name| format!("`{name}`")).collect();
+                    listed(&names, "and")
+                };
+                let choices: Vec<_> = sets.iter().map(list).collect();
+                let choices = choices.join(" or ");
+                out.push(Diagnostic::error(
+                    self.start(),
+                    format!("<{}> lacks the attribute {choices}", self.element.name),
+                    format!("expected {choices}"),
+                ));
+            }
         }
     }
 
@@ -122,10 +179,10 @@ impl<'a, 'i> Reader<'a, 'i> {
                 ));
             }
         }
-        for child in self.element.children.iter().filter(|child| child.times == Times::Once) {
+        for child in self.element.children.iter().filter(|child| child.times != Times::Any) {
             let mut found = self.nodes(child.element);
             match (found.next(), found.next()) {
-                (None, _) => out.push(Diagnostic::error(
+                (None, _) if child.times == Times::Once => out.push(Diagnostic::error(
                     self.start(),
                     format!("<{}> lacks its <{}>", self.element.name, child.element.name),
                     expected_child(child),
@@ -148,10 +205,13 @@ impl<'a, 'i> Reader<'a, 'i> {
         let names = self.element.children.iter().map(|child| child.element.name);
         let elsewhere: Vec<_> =
             parents_of(name).map(|parent| format!("<{}>", parent.name)).collect();
-        let help = if elsewhere.is_empty() {
+        let slip = self.element.slips.iter().find(|(slip, _)| *slip == name);
+        let help = if let Some((_, help)) = slip {
+            Some((*help).to_owned())
+        } else if elsewhere.is_empty() {
             suggest::help(name, names, &format!("<{}> holds", self.element.name))
         } else {
-            Some(format!("<{name}> belongs inside {}", elsewhere.join(" or ")))
+            Some(format!("<{name}> belongs inside {}", listed(&elsewhere, "or")))
         };
         let (kind, label) = match (elsewhere.is_empty(), self.element.children) {
             (false, _) => ("misplaced", "does not belong here"),
@@ -184,6 +244,12 @@ impl<'a, 'i> Reader<'a, 'i> {
         self.nodes(element).next().map(|node| Self::new(node, element, out))
     }
 
+    /// Where the first child of that kind begins; where there is none, the
+    /// element itself.
+    pub(crate) fn start_of(&self, element: &'static Element) -> Range<usize> {
+        self.nodes(element).next().map_or_else(|| self.start(), |node| start_of(&node))
+    }
+
     /// All children that the table knows, in order, not checked yet.
     pub(crate) fn children(&self) -> impl Iterator<Item = (Node<'a, 'i>, &'static Element)> + '_ {
         self.node.children().filter(Node::is_element).filter_map(|node| {
@@ -197,79 +263,32 @@ impl<'a, 'i> Reader<'a, 'i> {
         self.node.attribute_node(name).map_or_else(|| self.start(), |a| a.range_value())
     }
 
-    /// A decimal number that `range` accepts.
-    pub(crate) fn number<T>(
-        &self,
-        name: &str,
-        range: impl FnOnce(f64) -> Result<T, OutOfRange>,
-        out: &mut Vec<Diagnostic>,
-    ) -> Option<T> {
-        self.value(name, number::decimal, range, out)
+    /// The bytes of an attribute's name; of the element's where there is none.
+    pub(crate) fn name_span_of(&self, name: &str) -> Range<usize> {
+        self.node.attribute_node(name).map_or_else(|| self.start(), |a| a.range_qname())
     }
 
-    /// A whole number that `range` accepts.
-    pub(crate) fn whole<T>(
-        &self,
-        name: &str,
-        range: impl FnOnce(u32) -> Result<T, OutOfRange>,
-        out: &mut Vec<Diagnostic>,
-    ) -> Option<T> {
-        self.value(name, number::whole, range, out)
-    }
-
-    fn value<N, T>(
-        &self,
-        name: &str,
-        read: impl FnOnce(&str) -> Result<N, NotANumber>,
-        range: impl FnOnce(N) -> Result<T, OutOfRange>,
-        out: &mut Vec<Diagnostic>,
-    ) -> Option<T> {
-        let attribute = self.node.attribute_node(name)?;
-        let diagnostic = match read(attribute.value()).map(range) {
-            Ok(Ok(value)) => return Some(value),
-            Ok(Err(OutOfRange { expected, .. })) => self.bad_value(
-                &attribute,
-                &format!("is {}", shorten(trim(attribute.value()))),
-                attribute.range_value(),
-                &format!("expected {expected}"),
-            ),
-            Err(NotANumber { problem, part, help }) => {
-                let values = self.element.attributes.iter().find(|a| a.name == name);
-                let expected = values.map_or("number", |a| a.values);
-                let span = part_of(&attribute, part);
-                self.bad_value(&attribute, &problem, span, &format!("expected a {expected}"))
-                    .help(help)
-            }
-        };
-        out.push(diagnostic);
-        None
-    }
-
-    /// The text of an attribute; one that is missing has been reported.
-    pub(crate) fn text(&self, name: &str) -> Option<&'a str> {
-        self.node.attribute(name)
-    }
-
-    fn bad_value(
-        &self,
-        attribute: &Attribute<'_, '_>,
-        problem: &str,
-        span: Range<usize>,
-        label: &str,
-    ) -> Diagnostic {
-        let message = format!("`{}` of <{}> {problem}", attribute.name(), self.element.name);
-        Diagnostic::error(span, message, label)
+    /// Whether it has that attribute.
+    pub(crate) fn has(&self, name: &str) -> bool {
+        self.node.has_attribute(name)
     }
 }
 
-/// The place of a part of an attribute's value; of all of it where entities
-/// make the value and its text differ.
-fn part_of(attribute: &Attribute<'_, '_>, part: Range<usize>) -> Range<usize> {
-    let all = attribute.range_value();
-    if all.len() == attribute.value().len() {
-        all.start + part.start..all.start + part.end
-    } else {
-        all
+/// "a number", "an angle", "three numbers".
+pub(crate) fn with_article(values: &str) -> String {
+    match values.chars().next() {
+        Some('`') => values.to_owned(),
+        _ if values.starts_with("three ") => values.to_owned(),
+        Some('a' | 'e' | 'i' | 'o') => format!("an {values}"),
+        _ => format!("a {values}"),
+    }
+}
+
+/// "a, b or c".
+pub(crate) fn listed(items: &[String], word: &str) -> String {
+    match items {
+        [most @ .., last] if !most.is_empty() => format!("{} {word} {last}", most.join(", ")),
+        _ => items.concat(),
     }
 }
 
@@ -278,7 +297,7 @@ fn expected_child(child: &Child) -> String {
         .element
         .attributes
         .iter()
-        .filter(|attribute| attribute.required)
+        .filter(|attribute| attribute.need == Need::Required)
         .map(|attribute| format!(" {}=\"...\"", attribute.name))
         .collect();
     let close = if child.element.children.is_empty() { "/" } else { "" };

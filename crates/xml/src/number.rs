@@ -1,15 +1,38 @@
 //! Numbers as the language writes them.
 
+use lancer_scene::OutOfRange;
 use std::ops::Range;
 
-/// Why a text is not a number, and which part of it.
+/// Why a text is no value of its kind, and which part of it.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct NotANumber {
+pub(crate) struct Wrong {
     /// What is wrong: "`x` of <point> {problem}".
     pub(crate) problem: String,
     /// The bytes of the text that are wrong.
     pub(crate) part: Range<usize>,
+    /// What was expected there, where that is not what the table says.
+    pub(crate) expected: Option<String>,
     pub(crate) help: Option<String>,
+}
+
+impl Wrong {
+    pub(crate) fn new(problem: impl Into<String>, part: Range<usize>) -> Self {
+        Self { problem: problem.into(), part, expected: None, help: None }
+    }
+
+    pub(crate) fn expected(self, expected: impl Into<String>) -> Self {
+        Self { expected: Some(expected.into()), ..self }
+    }
+
+    pub(crate) fn help(self, help: impl Into<String>) -> Self {
+        Self { help: Some(help.into()), ..self }
+    }
+
+    /// The same in a longer text, of which this one begins `by` bytes from the
+    /// beginning.
+    pub(crate) fn moved(self, by: usize) -> Self {
+        Self { part: self.part.start + by..self.part.end + by, ..self }
+    }
 }
 
 /// The characters that XML counts as white space.
@@ -46,12 +69,12 @@ fn decimal_length(text: &str) -> usize {
 }
 
 /// A finite decimal number, with white space around it allowed.
-pub(crate) fn decimal(text: &str) -> Result<f64, NotANumber> {
+pub(crate) fn decimal(text: &str) -> Result<f64, Wrong> {
     let trimmed = trim(text);
     let start = text.find(trimmed).unwrap_or(0);
     let all = start..start + trimmed.len();
     let wrong = |problem: &str, part: Range<usize>, help: Option<&str>| {
-        Err(NotANumber { problem: problem.to_owned(), part, help: help.map(str::to_owned) })
+        Err(Wrong { help: help.map(str::to_owned), ..Wrong::new(problem, part) })
     };
     if trimmed.is_empty() {
         return wrong("is empty", 0..text.len(), None);
@@ -86,20 +109,79 @@ pub(crate) fn decimal(text: &str) -> Result<f64, NotANumber> {
 /// A whole number of pixels, with white space around it allowed. Range checks
 /// are left to the caller; what is too large for the type is given as its
 /// largest value, which no range allows.
-pub(crate) fn whole(text: &str) -> Result<u32, NotANumber> {
+pub(crate) fn whole(text: &str) -> Result<u32, Wrong> {
     let value = decimal(text)?;
     let trimmed = trim(text);
     let start = text.find(trimmed).unwrap_or(0);
     if !trimmed.bytes().all(|b| b.is_ascii_digit()) && (value.fract() != 0.0 || value >= 0.0) {
-        return Err(NotANumber {
-            problem: "is not a whole number".to_owned(),
-            part: start..start + trimmed.len(),
-            help: (value.fract() == 0.0 && value < 1e9)
-                .then(|| format!("write it in digits alone: `{value}`")),
-        });
+        return Err(not_whole(trimmed, start, value));
     }
     // Saturates: negative numbers give 0, huge ones the largest.
     Ok(value as u32)
+}
+
+/// A whole number that may be negative, with white space around it allowed.
+pub(crate) fn integer(text: &str) -> Result<i32, Wrong> {
+    let value = decimal(text)?;
+    let trimmed = trim(text);
+    let start = text.find(trimmed).unwrap_or(0);
+    match trimmed.parse() {
+        Ok(whole) => Ok(whole),
+        Err(_) if value.fract() == 0.0 && value.abs() >= 2_147_483_648.0 => {
+            let wrong = Wrong::new("is too large", start..start + trimmed.len());
+            Err(wrong.expected("a whole number from -2147483648 to 2147483647"))
+        }
+        Err(_) => Err(not_whole(trimmed, start, value)),
+    }
+}
+
+fn not_whole(trimmed: &str, start: usize, value: f64) -> Wrong {
+    let wrong = Wrong::new("is not a whole number", start..start + trimmed.len());
+    if value.fract() == 0.0 && value.abs() < 1e9 {
+        wrong.help(format!("write it in digits alone: `{value}`"))
+    } else {
+        wrong
+    }
+}
+
+/// The words between white space, each with its first byte.
+pub(crate) fn words(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    let white = [' ', '\t', '\r', '\n'];
+    let mut rest = 0;
+    std::iter::from_fn(move || {
+        let start = rest + text[rest..].find(|c| !white.contains(&c))?;
+        let end = text[start..].find(white).map_or(text.len(), |length| start + length);
+        rest = end;
+        Some((start, &text[start..end]))
+    })
+}
+
+/// So many finite decimal numbers with white space between them, each of which
+/// `range`, given its place among them, accepts.
+pub(crate) fn list<const N: usize>(
+    text: &str,
+    range: impl Fn(usize, f64) -> Result<f64, OutOfRange>,
+) -> Result<[f64; N], Wrong> {
+    let mut numbers = [0.0; N];
+    let mut count = 0;
+    for (start, word) in words(text) {
+        let number = decimal(word).map_err(|wrong| match word.contains(',') {
+            true => wrong.moved(start).help("separate the numbers with spaces"),
+            false => wrong.moved(start),
+        })?;
+        if let Some(place) = numbers.get_mut(count) {
+            *place = range(count, number).map_err(|OutOfRange { expected, .. }| {
+                Wrong::new(format!("holds {word}"), start..start + word.len()).expected(expected)
+            })?;
+        }
+        count += 1;
+    }
+    match count {
+        _ if count == N => Ok(numbers),
+        0 => Err(Wrong::new("is empty", 0..text.len())),
+        1 => Err(Wrong::new("has 1 number", 0..text.len())),
+        _ => Err(Wrong::new(format!("has {count} numbers"), 0..text.len())),
+    }
 }
 
 #[cfg(test)]
@@ -144,6 +226,50 @@ mod tests {
         assert_eq!(whole("99999999999"), Ok(u32::MAX), "above it");
         for text in ["800.5", "800.0", "8e2", "-1.5"] {
             assert!(whole(text).is_err(), "{text}");
+        }
+    }
+    #[test]
+    fn whole_numbers_may_be_negative_where_that_is_meant() {
+        assert_eq!(integer(" -5 "), Ok(-5));
+        assert_eq!(integer("+7"), Ok(7));
+        assert_eq!(integer("2147483647"), Ok(i32::MAX));
+        for (text, problem) in [
+            ("1.5", "is not a whole number"),
+            ("2e3", "is not a whole number"),
+            ("-3000000000", "is too large"),
+            ("2147483648", "is too large"),
+            ("1e300", "is too large"),
+            ("high", "is not a number"),
+        ] {
+            assert_eq!(integer(text).map_err(|wrong| wrong.problem), Err(problem.to_owned()));
+        }
+    }
+
+    #[test]
+    fn lists_are_pointed_into() {
+        let list = |text| {
+            list::<3>(text, |i, value| {
+                let expected = "a number of at least 0";
+                if i == 2 && value < 0.0 {
+                    Err(OutOfRange { found: value.to_string(), expected })
+                } else {
+                    Ok(value)
+                }
+            })
+        };
+        assert_eq!(list(" 1 -2\n3e0\t"), Ok([1.0, -2.0, 3.0]));
+        for (text, problem, part) in [
+            ("", "is empty", ""),
+            (" \t", "is empty", " \t"),
+            ("1", "has 1 number", "1"),
+            ("1 2 3 4", "has 4 numbers", "1 2 3 4"),
+            ("1 2 -3", "holds -3", "-3"),
+            ("1 x 3", "is not a number", "x"),
+            ("1, 2, 3", "has something behind its number", ","),
+            ("1 2 \u{2212}3", "is not a number", "\u{2212}3"),
+        ] {
+            let wrong = list(text).expect_err("rubbish");
+            assert_eq!((wrong.problem.as_str(), &text[wrong.part]), (problem, part), "{text:?}");
         }
     }
 }

@@ -1,25 +1,38 @@
 //! "Did you mean": the nearest known name.
 
+/// Longer names are neither compared nor suggested.
+const LONGEST: usize = 40;
+
 /// The name most like `found`, where one is like enough to be what was meant.
 pub(crate) fn nearest<'a>(
     found: &str,
     names: impl IntoIterator<Item = &'a str>,
 ) -> Option<&'a str> {
     // Long rubbish is like nothing, and comparing takes the product of lengths.
-    if found.chars().count() > 40 {
+    if found.chars().count() > LONGEST {
         return None;
     }
     let folded = found.trim().to_lowercase();
+    let length = folded.chars().count();
     names
         .into_iter()
-        .map(|name| {
-            let distance = strsim::damerau_levenshtein(&folded, name);
+        .filter_map(|name| {
+            if name.len() > LONGEST {
+                return None;
+            }
+            let most = name.len().max(length) / 3;
             // Abbreviations and longer forms ("col", "colour") are often farther.
-            let prefix =
-                folded.len() >= 3 && (name.starts_with(&folded) || folded.starts_with(name));
-            (if prefix { distance.min(1) } else { distance }, name)
+            let prefix = folded.len() >= 3
+                && name.len() >= 3
+                && (name.starts_with(&folded) || folded.starts_with(name));
+            let distance = match prefix {
+                true => usize::from(folded != name),
+                // Names that differ so much in length need no comparing.
+                false if name.chars().count().abs_diff(length) > most => return None,
+                false => strsim::damerau_levenshtein(&folded, name),
+            };
+            (distance <= most).then_some((distance, name))
         })
-        .filter(|(distance, name)| *distance <= name.len().max(folded.chars().count()) / 3)
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, name)| name)
 }

@@ -39,7 +39,7 @@ impl PinholeCamera {
         let ahead = naive_unit(target - origin);
         let right = horizontal(ahead);
         let (px_width, px_height) = (camera.px_width.get(), camera.px_height.get());
-        let plane_width = camera.width.get();
+        let plane_width = camera.plane_width();
         Self {
             origin,
             target,

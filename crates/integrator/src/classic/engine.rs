@@ -30,6 +30,10 @@ impl Engine for Classic {
         super::warnings(scene)
     }
 
+    fn refusals(&self, scene: &Scene) -> Vec<String> {
+        super::refusals(scene)
+    }
+
     fn prepare<'s>(&'s self, scene: &'s Scene) -> Box<dyn Tracer + 's> {
         let world = World::new(scene);
         let lighting = Lighting::new(scene, &world);

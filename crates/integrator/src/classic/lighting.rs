@@ -76,7 +76,10 @@ impl Lighting {
                 Light::Sun { direction, .. } => {
                     suns.push((naive_unit(-direction.get()), brightness));
                 }
-                Light::Lamp { point, .. } => lamps.push((point.get().coords, brightness)),
+                // Scenes with spots are refused before they come here.
+                Light::Lamp { point, .. } | Light::Spot { point, .. } => {
+                    lamps.push((point.get().coords, brightness));
+                }
             }
         }
         let suns = suns.chunks(LANES).map(|suns| Group::new(suns, false, world));

@@ -10,8 +10,11 @@ mod lanes;
 pub(crate) mod lighting;
 mod occluders;
 mod plane;
+mod refusals;
 mod sphere;
 pub(crate) mod world;
+
+pub(crate) use refusals::refusals;
 
 use lancer_math::Vector;
 use lancer_scene::{Geometry, Light, Scene};
@@ -61,7 +64,7 @@ pub(crate) fn warnings(scene: &Scene) -> Vec<String> {
     let mut sizes = vec![camera.origin().get().coords.amax(), camera.target().get().coords.amax()];
     for (i, light) in scene.lights.iter().enumerate() {
         match light {
-            Light::Lamp { point, .. } => sizes.push(point.get().coords.amax()),
+            Light::Lamp { point, .. } | Light::Spot { point, .. } => sizes.push(point.get().coords.amax()),
             Light::Sun { direction, .. } if !can_be_squared(direction.get()) => {
                 warnings.push(format!(
                     "the direction of light {} is too long or too short for this engine to \
@@ -88,7 +91,8 @@ pub(crate) fn warnings(scene: &Scene) -> Vec<String> {
                 let radius = sphere.radius.get();
                 sizes.extend([sphere.centre.get().coords.amax(), radius, 1.0 / radius]);
             }
-            Geometry::Custom(_) => {}
+            // Custom shapes know their own sizes; others are refused.
+            _ => {}
         }
     }
     if sizes.iter().any(|size| *size > LARGEST) {

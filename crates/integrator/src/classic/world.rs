@@ -73,19 +73,19 @@ struct Look {
 
 impl Look {
     fn new(surface: &Surface, shape: usize) -> Self {
-        let rgb = |c: Colour| [f32::from(c.r), f32::from(c.g), f32::from(c.b)];
+        let rgb = |c: Colour| c.codes().map(f32::from);
         let second = match surface.pattern {
             Pattern::Solid => None,
-            Pattern::Checker(second) => Some(rgb(second)),
+            Pattern::Checker(checker) => Some(rgb(checker.second)),
         };
-        Self { colour: rgb(surface.colour), second, gloss: surface.gloss.get(), shape }
+        Self { colour: rgb(surface.colour), second, gloss: surface.gloss.get() as f32, shape }
     }
 }
 
 impl World {
     /// The shapes of `scene`: all spheres, then all planes, then all custom
     /// shapes, each in the scene's order. The first of several shapes hit at
-    /// the same distance is the one seen.
+    /// the same distance is the one seen. Shapes of other kinds are left out.
     #[must_use]
     pub fn new(scene: &Scene) -> Self {
         let (mut spheres, mut planes, mut customs) = (Vec::new(), Vec::new(), Vec::new());
@@ -105,6 +105,8 @@ impl World {
                     customs.push(Arc::clone(custom));
                     looks[2].push(look);
                 }
+                // Scenes with other shapes are refused before they come here.
+                _ => {}
             }
         }
         Self {

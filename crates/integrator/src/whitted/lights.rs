@@ -1,0 +1,203 @@
+use super::fresnel::{mirrored_by_sheet, mirrored_of_unbent};
+use super::media::{Media, medium, transmittance};
+use super::stops::Stops;
+use super::tracer::{Place, Rgb64, times};
+use crate::RayCounts;
+use lancer_kernel::{Prepared, SurfacePoint, Which};
+use lancer_math::{Point, Ray, Vector, sin_cos_degrees, unit};
+use lancer_scene::{Beam, Falloff, Light, Scene, Shadows};
+
+/// The lights of a scene, in its order.
+#[derive(Debug)]
+pub(super) struct Lights {
+    lights: Vec<Source>,
+    shadows: Shadows,
+}
+
+/// A light made ready.
+#[derive(Debug)]
+struct Source {
+    brightness: f64,
+    place: From,
+    falloff: Falloff,
+    beam: Option<Cone>,
+}
+
+/// Where light comes from.
+#[derive(Debug)]
+enum From {
+    Point(Point),
+    /// The direction to a sun, of length 1.
+    Direction(Vector),
+}
+
+/// The cone of a spot.
+#[derive(Debug)]
+struct Cone {
+    axis: Vector,
+    /// The cosines of its angles.
+    inner: f64,
+    outer: f64,
+}
+
+impl Cone {
+    fn new(axis: Vector, beam: &Beam) -> Self {
+        let (_, inner) = sin_cos_degrees(beam.inner().get());
+        let (_, outer) = sin_cos_degrees(beam.outer().get());
+        // Never zero in a scene.
+        Self { axis: unit(axis).unwrap_or_else(Vector::z), inner, outer }
+    }
+
+    /// The fraction of the light in a direction of length 1 away from the spot:
+    /// between the angles a smooth step of the cosine.
+    fn share(&self, direction: &Vector) -> f64 {
+        let cosine = self.axis.dot(direction);
+        if cosine >= self.inner {
+            1.0
+        } else if cosine > self.outer {
+            let s = (cosine - self.outer) / (self.inner - self.outer);
+            s * s * (3.0 - 2.0 * s)
+        } else {
+            0.0
+        }
+    }
+}
+
+/// Which side of a surface is seen, and where the ray was that sees it.
+pub(super) struct Seen<'a> {
+    pub(super) point: &'a SurfacePoint<'a>,
+    /// The normals on the side that is seen.
+    pub(super) facet: Vector,
+    pub(super) shading: Vector,
+    /// What is on that side.
+    pub(super) media: &'a Media,
+}
+
+impl Lights {
+    pub(super) fn new(scene: &Scene) -> Self {
+        let source = |light: &Light| match light {
+            Light::Lamp { point, brightness, falloff } => Source {
+                brightness: brightness.get(),
+                place: From::Point(point.get()),
+                falloff: *falloff,
+                beam: None,
+            },
+            Light::Spot { point, axis, beam, brightness, falloff } => Source {
+                brightness: brightness.get(),
+                place: From::Point(point.get()),
+                falloff: *falloff,
+                beam: Some(Cone::new(axis.get(), beam)),
+            },
+            Light::Sun { direction, brightness } => Source {
+                brightness: brightness.get(),
+                // Never zero in a scene.
+                place: From::Direction(unit(-direction.get()).unwrap_or_else(Vector::z)),
+                falloff: Falloff::None,
+                beam: None,
+            },
+        };
+        Self { lights: scene.lights.iter().map(source).collect(), shadows: scene.shadows }
+    }
+
+    /// The radiance of a white matte surface there.
+    pub(super) fn gather(
+        &self,
+        prepared: &Prepared,
+        seen: &Seen<'_>,
+        counts: &mut RayCounts,
+        place: Place,
+    ) -> Rgb64 {
+        let mut sum = [0.0; 3];
+        for light in &self.lights {
+            let (way, distance, t_max) = match &light.place {
+                From::Direction(direction) => (*direction, 1.0, f64::INFINITY),
+                From::Point(lamp) => {
+                    let way = lamp - seen.point.point;
+                    // From where the shadow ray starts it is 1 to the lamp.
+                    (way, way.norm(), 1.0)
+                }
+            };
+            let cosine = way.dot(&seen.shading) / distance;
+            // Not for NaN either: a lamp in the very point lights nothing.
+            if !(cosine > 0.0 && way.dot(&seen.facet) > 0.0) {
+                continue;
+            }
+            let mut strength = light.brightness * cosine;
+            if light.falloff == Falloff::Square {
+                strength /= distance * distance;
+            }
+            if let Some(beam) = &light.beam {
+                strength *= beam.share(&(way / -distance));
+            }
+            if strength == 0.0 {
+                continue;
+            }
+            counts.shadow += 1;
+            let mut ray = seen.point.leave(way);
+            if let From::Point(lamp) = &light.place {
+                ray.direction = lamp - ray.origin;
+            }
+            let arrives = self.transmitted(prepared, &ray, t_max, seen.media, counts, place);
+            for (sum, arrives) in sum.iter_mut().zip(arrives) {
+                *sum += strength * arrives;
+            }
+        }
+        sum
+    }
+
+    /// What of the light arrives that goes along a ray, against it, from `t_max`.
+    fn transmitted(
+        &self,
+        prepared: &Prepared,
+        ray: &Ray,
+        t_max: f64,
+        media: &Media,
+        counts: &mut RayCounts,
+        place: Place,
+    ) -> Rgb64 {
+        if prepared.any(ray, t_max, Which::Opaque) {
+            return [0.0; 3];
+        }
+        if !prepared.has_transparent() {
+            return [1.0; 3];
+        }
+        if self.shadows == Shadows::Opaque && prepared.any(ray, t_max, Which::Transparent) {
+            return [0.0; 3];
+        }
+        let hits = prepared.all(ray, (0.0, t_max), Which::Transparent);
+        let length = ray.direction.norm();
+        let mut media = media.clone();
+        let (mut left, mut last) = ([1.0; 3], 0.0);
+        for stop in Stops::new(prepared, ray, &hits) {
+            let here = medium(media.top(prepared), prepared);
+            left = times(left, transmittance(&here, (stop.t - last) * length));
+            last = stop.t;
+            for (point, cosine) in stop.sheets() {
+                let surface = point.surface;
+                let mirrored = mirrored_by_sheet(cosine, here.ior.get(), surface.medium.ior.get());
+                let passes = passing(point) * (1.0 - mirrored);
+                left = left.map(|left| left * passes);
+            }
+            let Some(border) = stop.border(prepared, &mut media) else { continue };
+            if !border.makes_sense {
+                counts.troubles.media.at(place);
+            }
+            if let Some((point, cosine)) = border.surface {
+                let n1 = medium(border.before, prepared).ior.get();
+                let n2 = medium(border.after, prepared).ior.get();
+                let passes = passing(point) * (1.0 - mirrored_of_unbent(cosine, n1, n2));
+                left = left.map(|left| left * passes);
+            }
+            if left == [0.0; 3] {
+                return left;
+            }
+        }
+        let here = medium(media.top(prepared), prepared);
+        times(left, transmittance(&here, (t_max - last) * length))
+    }
+}
+
+/// The fraction of light that is neither mirrored by gloss nor matte.
+fn passing(point: &SurfacePoint<'_>) -> f64 {
+    (1.0 - point.surface.gloss.get()) * point.surface.transparency.get()
+}

@@ -1,0 +1,138 @@
+//! A physically right recursive engine after Whitted (*An Improved Illumination
+//! Model for Shaded Display*, 1980): light of lamps and suns with shadows,
+//! mirrors, and glass with media that are tracked.
+
+mod fresnel;
+mod lights;
+mod media;
+mod stops;
+mod tracer;
+mod view;
+
+use crate::{Engine, Tracer};
+use lancer_film::Display;
+use lancer_scene::{Geometry, Group, InvalidField, OutOfRange, Placed, Scene, Shape};
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+/// The usual engine: lamps whose light falls off, mirrors and glass to any
+/// depth that can be seen, in linear light.
+///
+/// A pixel is the radiance that its centre's ray sees.
+#[derive(Debug, Clone, Copy)]
+pub struct Whitted {
+    cutoff: f64,
+}
+
+impl Whitted {
+    /// The cutoff of [`new`](Self::new).
+    pub const CUTOFF: f64 = 1e-4;
+
+    /// How many surfaces a ray is followed through, at most; a ray that still
+    /// matters then is counted as a trouble.
+    pub const DEEPEST: u32 = tracer::DEEPEST;
+
+    /// The engine with the usual cutoff.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self { cutoff: Self::CUTOFF }
+    }
+
+    /// The engine with another cutoff: the largest sum of the shares in a pixel
+    /// of all rays that are not followed. Where none of them would have seen
+    /// anything brighter than display white, a pixel is off by that fraction of
+    /// display white at most.
+    ///
+    /// # Errors
+    /// Where `cutoff` is not from 0 to 1; with 0 every ray is followed to the
+    /// deepest surface.
+    pub fn with_cutoff(cutoff: f64) -> Result<Self, InvalidField> {
+        if (0.0..=1.0).contains(&cutoff) {
+            return Ok(Self { cutoff });
+        }
+        let found = OutOfRange { found: cutoff.to_string(), expected: "a number from 0 to 1" };
+        Err(found.in_field("cutoff"))
+    }
+
+    /// The cutoff.
+    #[must_use]
+    pub const fn cutoff(&self) -> f64 {
+        self.cutoff
+    }
+}
+
+impl Default for Whitted {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// Coordinates up to this can be squared, and the result multiplied with
+/// another one, in double precision.
+const LARGEST: f64 = 1e75;
+
+impl Engine for Whitted {
+    fn name(&self) -> &str {
+        "whitted"
+    }
+
+    fn summary(&self) -> &str {
+        "lamps that fall off, shadows, mirrors, glass"
+    }
+
+    fn display(&self) -> Display {
+        Display::Exposed
+    }
+
+    fn warnings(&self, scene: &Scene) -> Vec<String> {
+        let mut warnings = Vec::new();
+        let camera = &scene.camera;
+        let reach = camera.origin().get().coords.amax().max(camera.target().get().coords.amax());
+        if reach > LARGEST {
+            warnings.push(format!(
+                "the camera is farther than {LARGEST:e} from the origin, where squares leave the \
+                 range of numbers: scale the scene"
+            ));
+        }
+        let mut groups = BTreeSet::new();
+        open_media(&scene.shapes, "", &mut warnings);
+        in_groups(&scene.groups, &mut groups, &mut warnings);
+        warnings
+    }
+
+    fn prepare<'s>(&'s self, scene: &'s Scene) -> Box<dyn Tracer + 's> {
+        Box::new(tracer::WhittedTracer::new(scene, self.cutoff))
+    }
+}
+
+fn in_groups(groups: &[Placed], seen: &mut BTreeSet<*const Group>, warnings: &mut Vec<String>) {
+    for placed in groups {
+        if seen.insert(Arc::as_ptr(&placed.group)) {
+            let of = placed.group.name().map_or_else(
+                || " of a group".to_owned(),
+                |name| format!(" of `{name}`"),
+            );
+            open_media(placed.group.shapes(), &of, warnings);
+            in_groups(placed.group.groups(), seen, warnings);
+        }
+    }
+}
+
+/// Transparent shapes that enclose nothing, so that light enters their medium
+/// and never leaves it.
+fn open_media(shapes: &[Shape], of: &str, warnings: &mut Vec<String>) {
+    for (i, shape) in shapes.iter().enumerate() {
+        if !shape.surface.has_medium() || shape.geometry.is_closed() {
+            continue;
+        }
+        let (number, kind) = (i + 1, shape.geometry.kind());
+        let why = match shape.geometry {
+            Geometry::Mesh(_) => "it has edges with one triangle alone",
+            _ => "it has no inside",
+        };
+        warnings.push(format!(
+            "shape {number}{of}, a {kind}, is transparent but not closed ({why}): what enters its \
+             medium there never leaves it; make it thin=\"true\", or close it"
+        ));
+    }
+}

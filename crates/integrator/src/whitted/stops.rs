@@ -1,0 +1,166 @@
+//! Surfaces that lie so near together that no double tells them apart.
+//!
+//! Where a liquid touches its glass, a ray leaves the one and enters the other
+//! at one place, and there is no air between them to be mirrored by. So surfaces
+//! whose distances along a ray differ by no more than their error bounds are
+//! crossed together, in one stop.
+
+use super::media::Media;
+use lancer_kernel::{Hit, Prepared, SurfacePoint};
+use lancer_math::Ray;
+
+/// Surfaces that are crossed together, the nearest first.
+pub(super) struct Stop<'a> {
+    pub(super) t: f64,
+    hits: Vec<Touch<'a>>,
+}
+
+struct Touch<'a> {
+    point: SurfacePoint<'a>,
+    /// The size of the cosine between ray and normal.
+    cosine: f64,
+    entering: bool,
+    /// How far off, along the ray, the point may be.
+    slack: f64,
+    t: f64,
+}
+
+impl<'a> Touch<'a> {
+    fn new(prepared: &'a Prepared, ray: &Ray, hit: &Hit) -> Self {
+        let point = prepared.expand(ray, hit);
+        let length = ray.direction.norm();
+        let along = ray.direction.dot(&point.normal);
+        let cosine = along.abs() / length;
+        let slack = 4.0 * point.error / along.abs();
+        Self { point, cosine, entering: along < 0.0, slack, t: hit.t }
+    }
+}
+
+/// The border between two media, or what hides in one.
+pub(super) struct Border<'s, 'a> {
+    pub(super) before: Option<u32>,
+    pub(super) after: Option<u32>,
+    /// The surface that is seen there and its cosine; none where the solid on
+    /// both sides is the same.
+    pub(super) surface: Option<(&'s SurfacePoint<'a>, f64)>,
+    /// Whether the solids were entered before they were left.
+    pub(super) makes_sense: bool,
+}
+
+impl<'a> Stop<'a> {
+    /// The stop at a hit, with all others that are no farther than rounding.
+    pub(super) fn at(prepared: &'a Prepared, ray: &Ray, hit: &Hit) -> Self {
+        let first = Touch::new(prepared, ray, hit);
+        // Generous: those that do not belong are sorted out below.
+        let reach = hit.t + 8.0 * first.slack;
+        let hits = prepared.all(ray, (hit.t.next_down(), reach), lancer_kernel::Which::All);
+        Self::gather(prepared, ray, &hits).0
+    }
+
+    /// The stop at the first of some hits, and how many of them belong to it.
+    fn gather(prepared: &'a Prepared, ray: &Ray, hits: &[Hit]) -> (Self, usize) {
+        let first = Touch::new(prepared, ray, &hits[0]);
+        let (t, slack) = (first.t, first.slack);
+        let mut touches = vec![first];
+        for hit in &hits[1..] {
+            let touch = Touch::new(prepared, ray, hit);
+            // Not for NaN either.
+            if !(touch.t - t <= slack + touch.slack) {
+                break;
+            }
+            touches.push(touch);
+        }
+        let count = touches.len();
+        (Self { t, hits: touches }, count)
+    }
+
+    /// The surface that lets no light through, if there is one: the first item
+    /// of those that do not.
+    pub(super) fn opaque(&self) -> Option<&SurfacePoint<'a>> {
+        let opaque = self.hits.iter().filter(|touch| !touch.point.surface.is_transparent());
+        opaque.min_by_key(|touch| touch.point.item).map(|touch| &touch.point)
+    }
+
+    /// The nearest surface.
+    pub(super) fn any(&self) -> Option<SurfacePoint<'a>> {
+        self.hits.first().map(|touch| touch.point)
+    }
+
+    /// The thin sheets and their cosines.
+    pub(super) fn sheets(&self) -> impl Iterator<Item = (&SurfacePoint<'a>, f64)> {
+        let sheets = self.hits.iter().filter(|touch| touch.point.surface.thin);
+        sheets.map(|touch| (&touch.point, touch.cosine))
+    }
+
+    /// Crosses the borders of all media here. `None` where there is none.
+    ///
+    /// The surface that is seen is that of the solid that outranks the others,
+    /// of those whose medium is on either side.
+    pub(super) fn border(
+        &self,
+        prepared: &Prepared,
+        media: &mut Media,
+    ) -> Option<Border<'_, 'a>> {
+        let solids = || self.hits.iter().filter(|touch| touch.point.surface.has_medium());
+        solids().next()?;
+        let mut makes_sense = true;
+        let mut inside = media.clone();
+        for touch in solids() {
+            let item = touch.point.item;
+            // One that is entered and left here is in neither before nor after.
+            if inside.has(item) == touch.entering && media.has(item) == touch.entering {
+                makes_sense = false;
+                // As if it had been otherwise before.
+                media.cross(item, !touch.entering);
+                inside.cross(item, !touch.entering);
+            }
+            inside.cross(item, touch.entering);
+        }
+        let (before, after) = (media.top(prepared), inside.top(prepared));
+        *media = inside;
+        let is_seen = |touch: &&Touch<'a>| {
+            before != after && [before, after].contains(&Some(touch.point.item))
+        };
+        let surface = solids()
+            .filter(is_seen)
+            .max_by(|a, b| prepared.rank(a.point.item, b.point.item))
+            .map(|touch| (&touch.point, touch.cosine));
+        Some(Border { before, after, surface, makes_sense })
+    }
+
+    /// How far apart, across the surface, the points of the surfaces are, with
+    /// their errors: a ray must start so much farther off to have left them all.
+    pub(super) fn thickness(&self) -> f64 {
+        let (first, rest) = (&self.hits[0], &self.hits[1..]);
+        rest.iter().fold(0.0, |most, touch| {
+            let apart = (touch.point.point - first.point.point).norm();
+            most.max(apart + 2.0 * touch.point.error)
+        })
+    }
+}
+
+/// The stops of some hits, nearest first.
+pub(super) struct Stops<'a, 'h> {
+    prepared: &'a Prepared,
+    ray: &'h Ray,
+    hits: &'h [Hit],
+}
+
+impl<'a, 'h> Stops<'a, 'h> {
+    pub(super) const fn new(prepared: &'a Prepared, ray: &'h Ray, hits: &'h [Hit]) -> Self {
+        Self { prepared, ray, hits }
+    }
+}
+
+impl<'a> Iterator for Stops<'a, '_> {
+    type Item = Stop<'a>;
+
+    fn next(&mut self) -> Option<Stop<'a>> {
+        if self.hits.is_empty() {
+            return None;
+        }
+        let (stop, count) = Stop::gather(self.prepared, self.ray, self.hits);
+        self.hits = &self.hits[count..];
+        Some(stop)
+    }
+}

@@ -1,0 +1,42 @@
+//! Where rays meet the shapes of a scene.
+//!
+//! [`Prepared`] is made once from a scene and then asked, one ray at a time,
+//! for the nearest hit, for any hit on a stretch, or for all; a hit is expanded
+//! to a [`SurfacePoint`] only once it is known to be the one that is wanted.
+//! This crate knows no camera, no light and no picture.
+//!
+//! ```
+//! use lancer_kernel::{Prepared, Which};
+//! use lancer_math::{Point, Ray, Vector};
+//! use lancer_scene::{Camera, Colour, Scene, Shape, Surface};
+//!
+//! let scene = Scene::builder()
+//!     .camera(Camera::new([0.0, -4.0, 0.0], [0.0; 3], 1.0, [4, 3]))
+//!     .shape(Shape::torus([0.0; 3], [0.0, 0.0, 1.0], [2.0, 0.5], Surface::new(Colour::RED)))
+//!     .build()?;
+//! let prepared = Prepared::new(&scene);
+//! let ray = Ray::new(Point::new(0.0, -4.0, 0.0), Vector::y());
+//! let hit = prepared.nearest(&ray, f64::INFINITY).expect("the ring is ahead");
+//! assert_eq!(hit.t, 1.5);
+//! assert_eq!(prepared.expand(&ray, &hit).normal, -Vector::y());
+//!
+//! // A line of sight through the hole.
+//! let through = Ray::new(Point::new(0.5, 0.0, -3.0), Vector::z());
+//! assert!(!prepared.any(&through, 6.0, Which::All));
+//! assert_eq!(prepared.all(&ray, (0.0, 10.0), Which::All).len(), 4);
+//! # Ok::<(), lancer_scene::InvalidScene>(())
+//! ```
+#![forbid(unsafe_code)]
+
+mod bvh;
+mod checker;
+mod crossing;
+mod hit;
+mod near;
+mod prepared;
+mod primitive;
+mod shapes;
+
+pub use crossing::Crossing;
+pub use hit::{Hit, SurfacePoint};
+pub use prepared::{Prepared, Which};

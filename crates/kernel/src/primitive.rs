@@ -1,0 +1,65 @@
+use crate::crossing::{Crossing, Crossings};
+use lancer_math::{Bounds, Point, Ray, Vector};
+use lancer_scene::Checker;
+
+/// A point of a surface where a ray crosses it, in the shape's own space.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Contact {
+    /// Where it is: put back onto the surface, so that it is nearer to it than
+    /// origin + t * direction, whose error grows with t.
+    pub(crate) point: Point,
+    /// No coordinate of `point` is farther than this from the exact surface.
+    pub(crate) error: f64,
+    /// The unit normal: outward where the shape is closed.
+    pub(crate) normal: Vector,
+    /// The unit normal to shade with: another one on smooth meshes alone.
+    pub(crate) shading: Vector,
+}
+
+/// Which of the two colours of a checker a point shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Cell {
+    /// The surface's own.
+    First,
+    /// The checker's.
+    Second,
+    /// So far out that doubles do not tell cells apart: the mean of both.
+    Mixed,
+}
+
+/// A shape made ready to be met by rays. All of it is in the shape's own space;
+/// ray directions may have any length, and `t` counts directions.
+///
+/// There is no smallest and no largest distance, and comparisons are written
+/// so that what is not a number is no hit.
+pub(crate) trait Primitive: std::fmt::Debug + Send + Sync {
+    /// All crossings of the ray's line. Of a closed shape they come in pairs
+    /// but for one that only touches, which may be reported or not.
+    fn crossings(&self, ray: &Ray) -> Crossings;
+
+    /// The nearest crossing with 0 < t < `t_max`.
+    #[inline]
+    fn nearest(&self, ray: &Ray, t_max: f64) -> Option<Crossing> {
+        self.crossings(ray).iter().find(|crossing| crossing.t > 0.0).filter(|c| c.t < t_max)
+    }
+
+    /// Calls `found` with each crossing with `from` < t < `to`, in any order.
+    fn each(&self, ray: &Ray, from: f64, to: f64, found: &mut dyn FnMut(Crossing)) {
+        self.crossings(ray).iter().filter(|c| c.t > from && c.t < to).for_each(found);
+    }
+
+    /// The point of a crossing that this shape has reported for this ray.
+    fn contact(&self, ray: &Ray, crossing: &Crossing) -> Contact;
+
+    /// The cell of a checker at a contact, by the shape's own two coordinates.
+    fn cell(&self, contact: &Contact, part: u32, checker: &Checker) -> Cell;
+
+    /// A box around it, rounded outward; `None` where it has no end.
+    fn bounds(&self) -> Option<Bounds>;
+
+    /// Whether `point` is inside; false where the shape has no inside.
+    fn contains(&self, point: &Point) -> bool;
+
+    /// Its volume, for which a bound serves; infinite where it has no end.
+    fn volume(&self) -> f64;
+}

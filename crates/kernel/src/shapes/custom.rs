@@ -1,0 +1,70 @@
+//! Shapes of the user's own, of which only the nearest hit can be asked.
+
+use crate::Crossing;
+use crate::crossing::Crossings;
+use crate::primitive::{Cell, Contact, Primitive};
+use lancer_math::{Bounds, Point, Ray, unit};
+use lancer_scene::{Checker, CustomShape};
+use std::sync::Arc;
+
+#[derive(Debug)]
+pub(crate) struct Own {
+    shape: Arc<dyn CustomShape>,
+}
+
+impl Own {
+    pub(crate) fn new(shape: &Arc<dyn CustomShape>) -> Self {
+        Self { shape: Arc::clone(shape) }
+    }
+}
+
+impl Primitive for Own {
+    /// None: they cannot be asked for.
+    fn crossings(&self, _ray: &Ray) -> Crossings {
+        Crossings::NONE
+    }
+
+    fn nearest(&self, ray: &Ray, t_max: f64) -> Option<Crossing> {
+        let squared = ray.direction.norm_squared();
+        let t = if (squared - 1.0).abs() <= 8.0 * f64::EPSILON {
+            // As it is, up to the last bit.
+            self.shape.nearest(ray)?
+        } else {
+            let direction = unit(ray.direction)?;
+            let length = direction.dot(&ray.direction);
+            self.shape.nearest(&Ray::new(ray.origin, direction))? / length
+        };
+        (t > 0.0 && t < t_max).then_some(Crossing { t, part: 0 })
+    }
+
+    /// The nearest one, if it is on that stretch.
+    fn each(&self, ray: &Ray, from: f64, to: f64, found: &mut dyn FnMut(Crossing)) {
+        self.nearest(ray, to).filter(|crossing| crossing.t > from).into_iter().for_each(found);
+    }
+
+    /// Nothing is known of the surface, so the point is that of the ray, and
+    /// the error a generous multiple of what computing it loses.
+    fn contact(&self, ray: &Ray, crossing: &Crossing) -> Contact {
+        let point = ray.at(crossing.t);
+        let normal = self.shape.normal(&point);
+        let size = point.coords.amax() + crossing.t * ray.direction.amax();
+        Contact { point, error: 64.0 * f64::EPSILON * size, normal, shading: normal }
+    }
+
+    fn cell(&self, contact: &Contact, _part: u32, _checker: &Checker) -> Cell {
+        if self.shape.shows_second_colour(&contact.point) { Cell::Second } else { Cell::First }
+    }
+
+    fn bounds(&self) -> Option<Bounds> {
+        None
+    }
+
+    fn contains(&self, _point: &Point) -> bool {
+        false
+    }
+
+    /// Not known.
+    fn volume(&self) -> f64 {
+        f64::INFINITY
+    }
+}

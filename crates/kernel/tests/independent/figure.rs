@@ -1,0 +1,55 @@
+//! What a shape is to the test: all its crossings with a line, each with how
+//! sure it is.
+
+use crate::dd::Dd;
+use crate::space::{Line, Long};
+
+/// A crossing, or a place where there nearly is one.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Crossing {
+    pub(crate) t: Dd,
+    /// Which of the smooth surfaces of the shape.
+    pub(crate) part: usize,
+    /// Whether there is one.
+    pub(crate) is_there: bool,
+    /// How far the ray would have to be moved aside for that to change, to within
+    /// a factor of two or so, as a share of [`Line::scale`].
+    pub(crate) margin: f64,
+    /// By how much more than usual `t` may be off: where the ray runs so near to
+    /// an edge that either side of it may be found.
+    pub(crate) slack: f64,
+}
+
+impl Crossing {
+    pub(crate) fn new(t: Dd, part: usize, is_there: bool, margin: f64) -> Self {
+        Self { t, part, is_there, margin, slack: 0.0 }
+    }
+}
+
+/// Whether a crossing is there may be found either way where moving the ray by
+/// this share of the size of the scene seen from it changes the answer: at a
+/// silhouette, at the edge of a sheet, at the tip of a cone.
+///
+/// The roundings of a double come to 1.1e-16 of a coordinate each. A product of
+/// three with sums has about ten, and those of a shape's own preparation (axes
+/// and normals of unit length) come on top; a thousand of them are never
+/// reached. Each test prints the widest margin at which it saw the other answer.
+pub(crate) const BAND: f64 = 1e-13;
+
+/// A shape, described anew.
+pub(crate) trait Figure: std::fmt::Debug {
+    /// All crossings of the whole line, those behind its origin too, in any
+    /// order, and those that are not there by less than [`BAND`].
+    fn crossings(&self, line: &Line, found: &mut Vec<Crossing>);
+
+    /// The distance from a part (continued beyond its edges), positive on the
+    /// side to which its normal points.
+    fn side(&self, part: usize, point: Long) -> Dd;
+
+    /// The unit normal of a part at the point of it that is nearest: outward where
+    /// the shape is closed, else as it was described.
+    fn normal(&self, part: usize, point: Long) -> Long;
+
+    /// Whether it has an inside.
+    fn is_closed(&self) -> bool;
+}
