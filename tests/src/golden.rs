@@ -4,6 +4,8 @@
 //! goldens are made:
 //!
 //! ```toml
+//! about = "What the scene shows, as a sentence."
+//!
 //! [[golden]]
 //! engine = "classic"
 //! size = [400, 300]      # the scene's own size where this is missing
@@ -46,6 +48,7 @@ pub struct Settings {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SettingsFile {
+    about: String,
     golden: Vec<Settings>,
 }
 
@@ -54,6 +57,8 @@ struct SettingsFile {
 pub struct Golden {
     /// NAME.ENGINE
     pub name: String,
+    /// What the scene shows, as a sentence.
+    pub about: String,
     scene: PathBuf,
     settings: Settings,
 }
@@ -120,7 +125,8 @@ fn of_scene(scene: &Path) -> Result<Vec<Golden>, Problem> {
         if goldens.iter().any(|golden| golden.name == name) {
             return Err(problem(format!("{}: two goldens are {name}", path.display())));
         }
-        goldens.push(Golden { name, scene: scene.to_owned(), settings });
+        let about = file.about.clone();
+        goldens.push(Golden { name, about, scene: scene.to_owned(), settings });
     }
     Ok(goldens)
 }
@@ -158,6 +164,12 @@ impl Golden {
             scene.camera.px_height = PixelCount::new(height).map_err(problem)?;
         }
         Ok(scene)
+    }
+
+    /// The scene's name: its path in `scenes/` without the extension.
+    #[must_use]
+    pub fn scene_name(&self) -> String {
+        name_of(&self.scene, &scenes())
     }
 
     /// The engine's name.

@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 mod docs;
+mod gallery;
 mod goldens;
 mod tidy;
 mod time;
@@ -23,7 +24,8 @@ enum Command {
         /// The goldens to render: NAME.ENGINE, or NAME for all of a scene; all if none is named
         names: Vec<String>,
     },
-    /// Write docs/format.md, the reference of the scene language, from the tables in the code
+    /// Write docs/format.md, the reference of the scene language, from the tables in the code, and
+    /// scenes/README.md from the settings beside the scenes
     Docs {
         /// Only say whether it is up to date
         #[arg(long)]
@@ -55,7 +57,9 @@ fn fail(reason: impl std::fmt::Display) -> Failure {
 fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::RegenGoldens { names } => goldens::regenerate(&names),
-        Command::Docs { check } => docs::format_reference(check),
+        Command::Docs { check } => {
+            docs::format_reference(check).and_then(|()| gallery::scenes_page(check))
+        }
         Command::Tidy => tidy::run(),
         Command::Time { runs, threads } => time::run(runs, threads),
     };

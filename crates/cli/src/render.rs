@@ -75,7 +75,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         threads: rendered.threads,
         rays: rendered.counts.into(),
         frame_peak: rendered.film.frame_peak(),
-        exposure: rendered.film.exposure(),
+        exposure: rendered.film.stops(),
         cutoff: (engine.name() == WHITTED)
             .then(|| args.cutoff.unwrap_or_default().cutoff()),
         troubles: rendered.counts.troubles.into(),

@@ -52,12 +52,6 @@ impl Near {
     pub(crate) fn t(&self, along: f64) -> f64 {
         (self.shift + along) * self.unit
     }
-
-    /// The point of the ray at `t`, minus the centre.
-    #[inline]
-    pub(crate) fn at(&self, t: f64) -> Vector {
-        self.origin + self.direction * (t / self.unit - self.shift)
-    }
 }
 
 /// The direction, times a power of two where its square would be out of range,
@@ -118,7 +112,7 @@ mod tests {
             let near = Near::new(&ray, &centre);
             assert_eq!((near.origin, near.shift, near.unit), (offset, steps, 1.0));
             assert_eq!(near.t(0.5), steps + 0.5);
-            assert_eq!(near.at(steps), offset);
+            assert_eq!(stepped(&ray.origin, &centre, steps, &direction), offset);
         }
     }
 

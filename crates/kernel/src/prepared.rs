@@ -184,13 +184,11 @@ impl Prepared {
         let contact = ready.primitive.contact(&local, &crossing);
         let albedo = match ready.surface.pattern {
             Pattern::Solid => ready.albedo,
-            Pattern::Checker(checker) => {
-                match ready.primitive.cell(&contact, hit.part, &checker) {
-                    Cell::First => ready.albedo,
-                    Cell::Second => ready.second,
-                    Cell::Mixed => [0, 1, 2].map(|i| (ready.albedo[i] + ready.second[i]) / 2.0),
-                }
-            }
+            Pattern::Checker(checker) => match ready.primitive.cell(&contact, hit.part, &checker) {
+                Cell::First => ready.albedo,
+                Cell::Second => ready.second,
+                Cell::Mixed => [0, 1, 2].map(|i| (ready.albedo[i] + ready.second[i]) / 2.0),
+            },
         };
         let mut surface = SurfacePoint {
             point: contact.point,

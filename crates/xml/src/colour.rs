@@ -111,8 +111,7 @@ fn hexadecimal(digits: &str) -> Result<Colour, Wrong> {
                 let twice: String = digits.chars().flat_map(|c| [c, c]).collect();
                 wrong.help(format!("write `#{twice}`"))
             }
-            8 => wrong
-                .help(format!("write `#{}`: colours have no opacity here", &digits[..6])),
+            8 => wrong.help(format!("write `#{}`: colours have no opacity here", &digits[..6])),
             _ => wrong,
         });
     }
@@ -176,8 +175,8 @@ fn code(text: &str, part: Range<usize>) -> Result<u8, Wrong> {
     if value.fract() == 0.0 && (0.0..=255.0).contains(&value) {
         return Ok(value as u8);
     }
-    let wrong = Wrong::new(format!("holds {}", shorten(&text[part.clone()])), part)
-        .expected(expected);
+    let wrong =
+        Wrong::new(format!("holds {}", shorten(&text[part.clone()])), part).expected(expected);
     Err(if (0.0..1.0).contains(&value) {
         wrong.help("fractions from 0 to 1 of linear light are `linear(r, g, b)`")
     } else {

@@ -5,14 +5,15 @@ use crate::{Diagnostic, Source};
 use roxmltree::{Document, Error, ParsingOptions};
 use std::ops::Range;
 
-/// How deeply elements may be nested. The language itself needs four levels.
+/// How deeply elements may be nested. The language itself needs four levels, and
+/// one for each group around a shape.
 pub const DEEPEST: usize = 100;
 
 /// How many elements, texts and comments a file may have.
 pub const MOST_NODES: u32 = 20_000_000;
 
 /// How many attributes one element may have. The parser compares each with
-/// each; the language itself needs four.
+/// each; the language itself needs fourteen.
 pub const MOST_ATTRIBUTES: usize = 1000;
 
 /// The text of a file; where it is not UTF-8, a replacement and why.
@@ -73,7 +74,7 @@ pub(crate) fn tree<'t>(text: &'t str, source: &Source) -> Result<Document<'t>, B
             format!("elements are nested more than {DEEPEST} levels deep"),
             "this one is too deep",
         )
-        .help("a scene needs four levels: world, lights, lamp, point".to_owned())
+        .help("a scene needs four levels: world, lights, lamp, point; and one for each group around a shape".to_owned())
         .into()),
     }
 }

@@ -3,7 +3,7 @@
 
 use crate::document::start_of;
 use crate::number::trim;
-use crate::schema::{Attribute, Child, Element, Need, Times, parents_of};
+use crate::schema::{Attribute, Child, Element, Need, Slip, Times, parents_of};
 use crate::{Diagnostic, suggest};
 use roxmltree::Node;
 use std::ops::Range;
@@ -63,10 +63,11 @@ impl<'a, 'i> Reader<'a, 'i> {
                 continue;
             }
             let names = self.element.all_attributes().map(|known| known.name);
-            let slip = self.element.slips.iter().find(|(slip, _)| *slip == name);
+            let slip = self.slip(name);
             // What looks like a missing attribute is that one, misspelt.
             let meant = match slip {
-                Some(_) => None,
+                Some(Slip::Meant(meant)) => Some(meant),
+                Some(Slip::Instead(_)) => None,
                 None => suggest::nearest(name, names.clone().filter(|name| !self.has(name))),
             };
             self.meant.extend(meant);
@@ -81,9 +82,9 @@ impl<'a, 'i> Reader<'a, 'i> {
                     },
                 )
                 .help(match (slip, meant) {
-                    (Some((_, help)), _) => Some((*help).to_owned()),
-                    (None, Some(name)) => Some(format!("did you mean `{name}`?")),
-                    (None, None) => suggest::help(name, names, &what),
+                    (Some(Slip::Instead(help)), _) => Some(help.to_owned()),
+                    (_, Some(name)) => Some(format!("did you mean `{name}`?")),
+                    _ => suggest::help(name, names, &what),
                 }),
             );
         }
@@ -93,6 +94,11 @@ impl<'a, 'i> Reader<'a, 'i> {
             }
         }
         self.check_one_of(out);
+    }
+
+    fn slip(&self, name: &str) -> Option<Slip> {
+        let slips = self.element.slips;
+        slips.iter().find(|(slip, _)| *slip == name).map(|(_, what)| *what)
     }
 
     /// Whether the attribute is there, or one that was taken for it.
@@ -171,7 +177,7 @@ impl<'a, 'i> Reader<'a, 'i> {
                 out.push(Diagnostic::error(
                     start..start + line.len(),
                     format!("text inside <{}>", self.element.name),
-                    if self.element.children.is_empty() {
+                    if self.element.all_children().next().is_none() {
                         "expected nothing here"
                     } else {
                         "expected elements only"
@@ -202,21 +208,20 @@ impl<'a, 'i> Reader<'a, 'i> {
 
     fn unknown_child(&self, node: &Node<'_, '_>) -> Diagnostic {
         let name = node.tag_name().name();
-        let names = self.element.children.iter().map(|child| child.element.name);
+        let names = self.element.all_children().map(|child| child.element.name);
         let elsewhere: Vec<_> =
             parents_of(name).map(|parent| format!("<{}>", parent.name)).collect();
-        let slip = self.element.slips.iter().find(|(slip, _)| *slip == name);
-        let help = if let Some((_, help)) = slip {
-            Some((*help).to_owned())
+        let help = if let Some(Slip::Instead(help)) = self.slip(name) {
+            Some(help.to_owned())
         } else if elsewhere.is_empty() {
             suggest::help(name, names, &format!("<{}> holds", self.element.name))
         } else {
             Some(format!("<{name}> belongs inside {}", listed(&elsewhere, "or")))
         };
-        let (kind, label) = match (elsewhere.is_empty(), self.element.children) {
+        let (kind, label) = match (elsewhere.is_empty(), self.element.all_children().next()) {
             (false, _) => ("misplaced", "does not belong here"),
-            (true, []) => ("unknown", "expected no element here"),
-            (true, _) => ("unknown", "not an element of the scene language"),
+            (true, None) => ("unknown", "expected no element here"),
+            (true, Some(_)) => ("unknown", "not an element of the scene language"),
         };
         Diagnostic::error(
             start_of(node),
@@ -227,7 +232,7 @@ impl<'a, 'i> Reader<'a, 'i> {
     }
 
     fn child_named(&self, name: &str) -> Option<&'static Child> {
-        self.element.children.iter().find(|child| child.element.name == name)
+        self.element.all_children().find(|child| child.element.name == name)
     }
 
     fn nodes(&self, element: &'static Element) -> impl Iterator<Item = Node<'a, 'i>> + use<'a, 'i> {
@@ -293,11 +298,12 @@ pub(crate) fn listed(items: &[String], word: &str) -> String {
 }
 
 fn expected_child(child: &Child) -> String {
+    let first = child.element.one_of.first().copied().unwrap_or_default();
     let attributes: String = child
         .element
         .attributes
         .iter()
-        .filter(|attribute| attribute.need == Need::Required)
+        .filter(|a| a.need == Need::Required || first.contains(&a.name))
         .map(|attribute| format!(" {}=\"...\"", attribute.name))
         .collect();
     let close = if child.element.children.is_empty() { "/" } else { "" };

@@ -3,7 +3,8 @@
 //!
 //! All mistakes of a file are found in one go, up to the first that leaves the
 //! XML without form (a tag that is not closed, say), because nothing after that
-//! could be trusted. This crate opens no file and prints nothing.
+//! could be trusted. This crate opens no file and prints nothing: meshes come
+//! from whoever implements [`Files`].
 //!
 //! ```
 //! let text = r#"<world>
@@ -36,16 +37,21 @@
 //! ```
 #![forbid(unsafe_code)]
 
+mod colour;
 mod diagnostic;
 mod document;
 mod element;
+mod files;
 mod number;
+mod parse;
 pub mod schema;
 mod source;
 mod suggest;
+mod values;
 mod world;
 
 pub use diagnostic::{Diagnostic, Severity};
 pub use document::{DEEPEST, MOST_ATTRIBUTES, MOST_NODES};
+pub use files::{Files, NoFiles};
+pub use parse::{InvalidFile, MAX_PIXELS, Options, Parsed, parse, parse_with};
 pub use source::Source;
-pub use world::{InvalidFile, MAX_PIXELS, Options, Parsed, parse};

@@ -165,13 +165,22 @@ pub(crate) fn list<const N: usize>(
     let mut numbers = [0.0; N];
     let mut count = 0;
     for (start, word) in words(text) {
-        let number = decimal(word).map_err(|wrong| match word.contains(',') {
-            true => wrong.moved(start).help("separate the numbers with spaces"),
-            false => wrong.moved(start),
+        let number = decimal(word).map_err(|wrong| {
+            let problem = match wrong.problem.as_str() {
+                _ if N == 1 => wrong.problem,
+                "has something behind its number" => "has something behind a number".to_owned(),
+                problem => format!("has an entry that {problem}"),
+            };
+            let wrong = Wrong { problem, ..wrong }.moved(start);
+            match word.contains(',') && N > 1 {
+                true => wrong.help("separate the numbers with spaces"),
+                false => wrong,
+            }
         })?;
         if let Some(place) = numbers.get_mut(count) {
             *place = range(count, number).map_err(|OutOfRange { expected, .. }| {
-                Wrong::new(format!("holds {word}"), start..start + word.len()).expected(expected)
+                let verb = if N == 1 { "is" } else { "holds" };
+                Wrong::new(format!("{verb} {word}"), start..start + word.len()).expected(expected)
             })?;
         }
         count += 1;
@@ -264,9 +273,9 @@ mod tests {
             ("1", "has 1 number", "1"),
             ("1 2 3 4", "has 4 numbers", "1 2 3 4"),
             ("1 2 -3", "holds -3", "-3"),
-            ("1 x 3", "is not a number", "x"),
-            ("1, 2, 3", "has something behind its number", ","),
-            ("1 2 \u{2212}3", "is not a number", "\u{2212}3"),
+            ("1 x 3", "has an entry that is not a number", "x"),
+            ("1, 2, 3", "has something behind a number", ","),
+            ("1 2 \u{2212}3", "has an entry that is not a number", "\u{2212}3"),
         ] {
             let wrong = list(text).expect_err("rubbish");
             assert_eq!((wrong.problem.as_str(), &text[wrong.part]), (problem, part), "{text:?}");

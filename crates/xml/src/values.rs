@@ -171,8 +171,7 @@ impl<'a> Reader<'a, '_> {
 
     fn wrong(&self, attribute: &Attribute<'_, '_>, wrong: Wrong) -> Diagnostic {
         let Wrong { problem, part, expected, help } = wrong;
-        let expected =
-            expected.unwrap_or_else(|| with_article(self.values_of(attribute.name())));
+        let expected = expected.unwrap_or_else(|| with_article(self.values_of(attribute.name())));
         let span = part_of(attribute, part);
         self.bad_value(attribute, &problem, span, &format!("expected {expected}")).help(help)
     }

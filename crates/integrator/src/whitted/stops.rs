@@ -25,13 +25,18 @@ struct Touch<'a> {
     t: f64,
 }
 
+/// About the root of the precision of doubles: where a ray grazes a round surface
+/// it is within rounding of it for so much of its radius and no more, whatever
+/// the cosine is.
+const GRAZING: f64 = 1e-8;
+
 impl<'a> Touch<'a> {
     fn new(prepared: &'a Prepared, ray: &Ray, hit: &Hit) -> Self {
         let point = prepared.expand(ray, hit);
         let length = ray.direction.norm();
         let along = ray.direction.dot(&point.normal);
         let cosine = along.abs() / length;
-        let slack = 4.0 * point.error / along.abs();
+        let slack = 4.0 * point.error / (cosine.max(GRAZING) * length);
         Self { point, cosine, entering: along < 0.0, slack, t: hit.t }
     }
 }

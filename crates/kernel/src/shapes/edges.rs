@@ -79,8 +79,8 @@ impl Shear {
             return None;
         }
         // Of one sign, or 0.
-        let areas = [(b, c), (c, a), (a, b)]
-            .map(|(p, q)| difference_of_products(p.x, q.y, p.y, q.x));
+        let areas =
+            [(b, c), (c, a), (a, b)].map(|(p, q)| difference_of_products(p.x, q.y, p.y, q.x));
         let weights = areas.map(|area| area / (areas[0] + areas[1] + areas[2]));
         let depth = weights[0] * a.z + weights[1] * b.z + weights[2] * c.z;
         // Between those of its corners, also where the ray grazes it.

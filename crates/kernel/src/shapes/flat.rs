@@ -13,7 +13,7 @@ use crate::crossing::Crossings;
 use crate::near::{Near, stepped};
 use crate::primitive::{Cell, Contact, Primitive};
 use lancer_math::{Bounds, Point, Ray, Vector, unit};
-use lancer_scene::{Checker, Disc, Rectangle};
+use lancer_scene::{Checker, Direction, Disc, Rectangle};
 
 #[derive(Debug)]
 pub(crate) struct Round {
@@ -156,7 +156,7 @@ pub(crate) struct Sheet {
 
 impl Sheet {
     pub(crate) fn new(rectangle: &Rectangle) -> Self {
-        let [a, b] = rectangle.sides().map(|side| side.get());
+        let [a, b] = rectangle.sides().map(Direction::get);
         let reach = a.amax() + b.amax();
         let corner = rectangle.corner();
         Self { patch: Patch::new(corner, [a, b]), size: corner.coords.amax() + reach, reach }
@@ -200,5 +200,162 @@ impl Primitive for Sheet {
 
     fn volume(&self) -> f64 {
         0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{
+        between, check_scaling, direction, dot, doubles, minus, ray, ray_to, times, ts, worst_error,
+    };
+    use super::*;
+    use fastrand::Rng;
+    use lancer_scene::{Colour, Geometry, Shape, Surface};
+
+    fn disc(centre: [f64; 3], normal: [f64; 3], radius: f64) -> Round {
+        let shape = Shape::disc(centre, normal, radius, Surface::new(Colour::RED)).unwrap();
+        let Geometry::Disc(disc) = shape.geometry else { panic!("a disc") };
+        Round::new(&disc)
+    }
+
+    fn rectangle(corner: [f64; 3], sides: [[f64; 3]; 2]) -> Sheet {
+        let shape = Shape::rectangle(corner, sides, Surface::new(Colour::RED)).unwrap();
+        let Geometry::Rectangle(rectangle) = shape.geometry else { panic!("a rectangle") };
+        Sheet::new(&rectangle)
+    }
+
+    #[test]
+    fn borders_belong_to_the_shape() {
+        let five = disc([0.0, 0.0, 2.0], [0.0, 0.0, -3.0], 5.0);
+        let one = rectangle([1.0, 1.0, 2.0], [[2.0, 0.0, 0.0], [1.0, 4.0, 0.0]]);
+        for (x, y, on_disc, on_rectangle) in [
+            (3.0, 4.0, true, true),
+            (5.0, 0.0, true, false),
+            (3.0, f64::next_up(4.0), false, true),
+            (1.0, 1.0, true, true),
+            (4.0, 5.0, false, true),
+            (2.0, 5.0, false, true),
+            (f64::next_down(1.0), 1.0, true, false),
+            (1.0, 2.0, true, false),
+            (1.5, 3.0, true, true),
+        ] {
+            for o in [0.0, 4.0, 1e9] {
+                let ray = ray([x, y, o], [0.0, 0.0, -0.5]);
+                let expected = [2.0 * (o - 2.0)];
+                assert_eq!(ts(&five, &ray), expected[..usize::from(on_disc)], "{x} {y}");
+                assert_eq!(ts(&one, &ray), expected[..usize::from(on_rectangle)], "{x} {y}");
+            }
+        }
+        // In the plane, and without a direction.
+        for d in [[1.0, 0.0, 0.0], [1.0, 2.0, -0.0], [0.0; 3], [f64::NAN, 0.0, 1.0]] {
+            assert!(ts(&five, &ray([0.0, 0.0, 2.0], d)).is_empty());
+            assert!(ts(&one, &ray([2.0, 2.0, 2.0], d)).is_empty());
+        }
+    }
+
+    /// The share of a hit disc is pi / 4 of the square around it, and the nearest
+    /// hit from far away is where it is from near by.
+    #[test]
+    fn areas_are_right_from_afar() {
+        let mut rng = Rng::with_seed(2);
+        let small = disc([1.0, 2.0, 3.0], [1.0, -2.0, 0.5], 1e-3);
+        let Frame { first, second, axis } = small.frame;
+        let mut met = [0, 0];
+        for _ in 0..100_000 {
+            let [i, j] = [1e-3, 1e-3].map(|r| r * (2.0 * rng.f64() - 1.0));
+            let target = small.centre + first * i + second * j;
+            let way = (direction(&mut rng) + axis * 1.5).normalize();
+            for (k, distance) in [0.5, 1e6].into_iter().enumerate() {
+                let ray = Ray::new(target - way * distance, way);
+                met[k] += small.crossings(&ray).iter().count();
+            }
+        }
+        for met in met {
+            let share = f64::from(met as u32) / 1e5;
+            assert!((share - std::f64::consts::FRAC_PI_4).abs() < 0.005, "{share}");
+        }
+    }
+
+    #[test]
+    fn contacts_are_on_the_exact_shapes() {
+        let mut rng = Rng::with_seed(4);
+        for (centre, normal, radius) in
+            [([0.0, 0.0, 0.0], [0.0, 0.0, 1.0], 1.0), ([10.0, -700.0, 3.0], [1.0, 2.0, -2.5], 20.0)]
+        {
+            let shape = disc(centre, normal, radius);
+            let rays = (0..50_000).map(|_| {
+                let target = shape.centre + direction(&mut rng) * (radius * rng.f64());
+                ray_to(&mut rng, &target, radius)
+            });
+            let n = doubles(&Vector::from(normal));
+            let (worst, count) = worst_error(&shape, rays, |p, _| {
+                let w = between(p, &shape.centre);
+                let off = dot(w, n) / dot(n, n).sqrt();
+                let beyond = (dot(w, w).sqrt().0 - radius).max(0.0);
+                off.0.abs() + beyond
+            });
+            assert!(worst <= 1.0 && count > 10_000, "{worst} of {count}");
+        }
+        for (corner, sides) in [
+            ([0.0; 3], [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]),
+            ([10.0, -700.0, 3.0], [[3.0, 1.0, 2.0], [2.5, 1.0, -7.0]]),
+            ([1e6, 1e6, 1e6], [[1e-3, 0.0, 0.0], [0.0, 1e-3, 1e-3]]),
+        ] {
+            let shape = rectangle(corner, sides);
+            let [a, b] = sides.map(Vector::from);
+            let rays = (0..50_000).map(|_| {
+                let target = shape.patch.corner + a * rng.f64() + b * rng.f64();
+                ray_to(&mut rng, &target, shape.reach)
+            });
+            let [a, b] = [a, b].map(|side| doubles(&side));
+            let (worst, count) = worst_error(&shape, rays, |p, _| {
+                let w = between(p, &shape.patch.corner);
+                // What is left after the parts along the sides (Gram and Schmidt).
+                let u = times(a, dot(a, b) / dot(a, a));
+                let c = minus(b, u);
+                let w = minus(w, times(c, dot(w, c) / dot(c, c)));
+                let w = minus(w, times(a, dot(w, a) / dot(a, a)));
+                dot(w, w).sqrt().0
+            });
+            assert!(worst <= 1.0 && count > 25_000, "{worst} of {count}");
+        }
+    }
+
+    #[test]
+    fn normals_and_cells() {
+        let mut checker = Checker::new(Colour::RED);
+        checker.length = lancer_scene::Length::new(0.5).unwrap();
+        let shape = rectangle([1.0, 1.0, 1.0], [[0.0, 3.0, 0.0], [0.0, 1.0, 2.0]]);
+        // Along the first side, and across it, also where the second is oblique.
+        for (y, z, expected) in [
+            (1.3, 1.1, Cell::First),
+            (1.8, 1.1, Cell::Second),
+            (1.8, 1.6, Cell::First),
+            (2.2, 2.2, Cell::First),
+        ] {
+            let ray = ray([5.0, y, z], [-1.0, 0.0, 0.0]);
+            let contact = shape.contact(&ray, &shape.nearest(&ray, 10.0).unwrap());
+            assert_eq!(contact.normal, Vector::x());
+            assert_eq!(shape.cell(&contact, 0, &checker), expected, "{y} {z}");
+        }
+    }
+
+    #[test]
+    fn scaled_by_powers_of_two_the_bits_are_the_same() {
+        let mut rng = Rng::with_seed(8);
+        let rays: Vec<Ray> = (0..2000)
+            .map(|_| {
+                let target = Point::from(direction(&mut rng) * 1.2);
+                ray_to(&mut rng, &target, 1.0)
+            })
+            .collect();
+        check_scaling(|k| Box::new(disc([0.1 * k, 0.2 * k, -0.3 * k], [0.3, 0.4, 0.1], k)), &rays);
+        check_scaling(
+            |k| {
+                let sides = [[k, 0.3 * k, 0.1 * k], [0.2 * k, -k, 0.7 * k]];
+                Box::new(rectangle([-0.5 * k, 0.2 * k, -0.3 * k], sides))
+            },
+            &rays,
+        );
     }
 }

@@ -9,10 +9,10 @@
 
 use super::exact::tamed;
 use super::frame::Frame;
+use crate::Crossing;
 use crate::checker;
 use crate::crossing::Crossings;
 use crate::primitive::{Cell, Contact, Primitive};
-use crate::Crossing;
 use lancer_math::{Bounds, Point, Ray, Vector, unit};
 use lancer_scene::{Checker, Plane};
 
@@ -75,5 +75,105 @@ impl Primitive for HalfSpace {
 
     fn volume(&self) -> f64 {
         f64::INFINITY
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{
+        assert_sound, between, dot, doubles, ray, ray_to, ts, worst_error,
+    };
+    use super::*;
+    use fastrand::Rng;
+    use lancer_scene::{Direction, Position};
+
+    fn plane(origin: [f64; 3], normal: [f64; 3]) -> HalfSpace {
+        HalfSpace::new(&Plane {
+            origin: Position::new(origin).unwrap(),
+            normal: Direction::new(normal).unwrap(),
+        })
+    }
+
+    /// Atlas P1.
+    #[test]
+    fn grazing_rays_meet_and_parallel_ones_do_not() {
+        let floor = plane([0.0; 3], [0.0, 1.0, 0.0]);
+        for (h, s) in [(1e-5, 5e-11), (1.0, 1e-9), (1.0, 1e-12), (1.0, 1e-300), (3.0, 7e-150)] {
+            let found = ts(&floor, &ray([0.0, h, 0.0], [1.0, -s, 0.0]))[0];
+            assert!((found / (h / s) - 1.0).abs() <= f64::EPSILON, "{h} {s}: {found}");
+        }
+        for zero in [0.0, -0.0] {
+            for other in [0.0, -0.0] {
+                for height in [1.0, -1.0, 0.0, -0.0] {
+                    let along = ray([0.0, height, 0.0], [1.0, zero, other]);
+                    assert!(ts(&floor, &along).is_empty(), "{along:?}");
+                }
+            }
+        }
+    }
+
+    /// Atlas P3, and nothing is too far away.
+    #[test]
+    fn far_from_the_origin_and_far_away() {
+        for s in [1e8, 1e12] {
+            let oblique = plane([s; 3], [1.0, 2.0, 2.0].map(|c| c / 3.0));
+            let d = [-2.0, -1.0, -2.0].map(|c| c / 3.0);
+            let found = ts(&oblique, &ray([s + 2.0, s + 1.0, s + 2.0], d))[0];
+            assert!((found - 3.0).abs() <= 1e-13, "{s}: {found}");
+        }
+        for far in [1.01e7, 1e12, 1e300] {
+            let wall = plane([far, 0.0, 0.0], [-1.0, 0.0, 0.0]);
+            assert_eq!(ts(&wall, &ray([0.0; 3], [1.0, 0.0, 0.0])), [far]);
+        }
+    }
+
+    #[test]
+    fn contacts_are_on_the_plane_and_leave_it() {
+        let origin = [5.0, -3.0, 700.0];
+        for normal in [[0.0, 0.0, 1.0], [1.0, 2.0, 2.0], [-0.3, 1e-9, 0.7], [1e-200, 0.0, 2e-200]] {
+            let shape = plane(origin, normal);
+            let mut rng = Rng::with_seed(7);
+            let rays: Vec<Ray> =
+                (0..50_000).map(|_| ray_to(&mut rng, &Point::from(origin), 10.0)).collect();
+            let n = doubles(&tamed(&Vector::from(normal)));
+            let (worst, count) = worst_error(&shape, rays.iter().copied(), |p, _| {
+                (dot(between(p, &Point::from(origin)), n) / dot(n, n).sqrt()).0
+            });
+            assert!(worst <= 1.0 && count > 25_000, "{worst} of {count}");
+            for ray in rays {
+                for crossing in shape.crossings(&ray).iter() {
+                    let contact = shape.contact(&ray, &crossing);
+                    assert_sound(&contact);
+                    let offset = contact.normal * (2.0 * contact.error);
+                    assert!(shape.contains(&(contact.point - offset)));
+                    assert!(!shape.contains(&(contact.point + offset)));
+                    let out = if ray.direction.dot(&contact.normal) > 0.0 { 1.0 } else { -1.0 };
+                    let leaving = Ray::new(contact.point + offset, ray.direction * out);
+                    assert!(shape.nearest(&leaving, f64::INFINITY).is_none(), "{leaving:?}");
+                    let entering = Ray::new(contact.point - offset, ray.direction * out);
+                    assert!(shape.nearest(&entering, f64::INFINITY).is_some(), "{entering:?}");
+                }
+            }
+        }
+    }
+
+    /// Atlas X1 and s21b.
+    #[test]
+    fn checkers_use_the_planes_own_two_coordinates() {
+        let checker = Checker::new(lancer_scene::Colour::RED);
+        for normal in [[1.0, 0.0, 0.0], [1.0, 1e-200, 0.0], [1.0, 2.0, 2.0], [0.0, 0.0, -1.0]] {
+            let shape = plane([0.25, 1e3, -4.0], normal);
+            let Frame { first, second, axis } = shape.frame;
+            for (i, j) in [(0.5, 0.5), (1.5, 0.5), (-0.5, 0.5), (-0.5, -0.5), (100.5, -7.5)] {
+                let target = shape.origin + first * i + second * j;
+                let from = Ray::new(target + axis * 3.0, -axis);
+                let crossing = shape.nearest(&from, f64::INFINITY).unwrap();
+                let contact = shape.contact(&from, &crossing);
+                let odd = libm::floor(i) % 2.0 != 0.0;
+                let other = libm::floor(j) % 2.0 != 0.0;
+                let expected = if odd == other { Cell::First } else { Cell::Second };
+                assert_eq!(shape.cell(&contact, 0, &checker), expected, "{normal:?} {i} {j}");
+            }
+        }
     }
 }

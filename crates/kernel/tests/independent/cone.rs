@@ -2,6 +2,7 @@
 //! from the axis is a linear function of where they are along it.
 
 use crate::dd::Dd;
+use crate::figure::WAVER;
 use crate::space::{Line, Long};
 
 #[derive(Debug)]
@@ -47,6 +48,10 @@ impl Side {
         self.height
     }
 
+    pub(crate) fn middle(&self) -> Long {
+        self.base + self.axis.times(Dd::ONE.half())
+    }
+
     /// How far along the axis: 0 at the base, 1 at the top.
     pub(crate) fn along(&self, point: Long) -> Dd {
         (point - self.base).dot(self.axis) / self.axis_squared
@@ -90,26 +95,41 @@ impl Side {
         }
         let root = below.sqrt();
         let larger = if b.is_negative() { root - b } else { -(root + b) };
-        let mut roots = Vec::with_capacity(2);
-        if !a.is_zero() {
-            roots.push(larger / a);
-        }
-        if !larger.is_zero() {
-            roots.push(c / larger);
-        }
-        // Of the two cones that meet at the tip only one is meant.
-        roots.retain(|&t| t.is_finite() && !(radius + radius_speed * t).is_negative());
-        roots.sort_by(|x, y| x.partial_cmp(y).expect("both are finite"));
-        match roots[..] {
-            [from, to] => Within::Between(from, to),
-            [only] if (a * only + b).is_negative() => Within::Between(only, Dd::INFINITY),
-            [only] => Within::Between(-Dd::INFINITY, only),
-            _ if self.widening.is_zero() && a.is_zero() && !c.is_positive() => {
-                Within::Between(-Dd::INFINITY, Dd::INFINITY)
+        if a.is_positive() {
+            // Of the two cones that meet at the tip only one is meant.
+            if (radius - radius_speed * b / a).is_negative() {
+                return Within::Never(line.nearest_to(self.tip()));
             }
-            _ if self.widening.is_zero() => Within::Never(line.nearest_to(self.base)),
-            _ => Within::Never(line.nearest_to(self.tip())),
+            let (t, other) = (larger / a, if larger.is_zero() { -b / a } else { c / larger });
+            return Within::Between(t.min(other), if other > t { other } else { t });
         }
+        if radius_speed.is_zero() {
+            // Along the axis of a cylinder: all of it or nothing, as `distance` says.
+            return Within::Between(-Dd::INFINITY, Dd::INFINITY);
+        }
+        // Steeper than the side, or along it: from there on inwards to no end.
+        let widens = radius_speed.is_positive();
+        let (near, far) = (c / larger, larger / a);
+        let t = match (a.is_zero() || !far.is_finite(), widens) {
+            (true, _) => near,
+            (false, true) if far > near => far,
+            (false, false) if far < near => far,
+            _ => near,
+        };
+        if widens { Within::Between(t, Dd::INFINITY) } else { Within::Between(-Dd::INFINITY, t) }
+    }
+
+    /// Where a line crosses the side in its tip, which has no normal: the least |cos|
+    /// of those around it.
+    pub(crate) fn tip_cosine(&self, line: &Line, t: Dd) -> Option<f64> {
+        if self.widening.is_zero() {
+            return None;
+        }
+        let tip = self.tip();
+        let from_tip = (line.at(t) - tip).norm().round();
+        let cosine = |way: Long| line.cosine(self.normal(tip + way));
+        (from_tip <= 100.0 * WAVER * line.scale)
+            .then(|| cosine(line.direction).min(cosine(-line.direction)))
     }
 
     fn tip(&self) -> Long {

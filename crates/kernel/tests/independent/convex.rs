@@ -3,8 +3,9 @@
 
 use crate::cone::{Side, Within};
 use crate::dd::Dd;
-use crate::figure::{BAND, Crossing, Figure};
+use crate::figure::{BAND, Crossing, Figure, WAVER};
 use crate::space::{Line, Long};
+use lancer_math::Point;
 
 /// One of the surfaces.
 #[derive(Debug)]
@@ -25,7 +26,8 @@ impl Face {
     fn within(&self, line: &Line) -> Within {
         match self {
             Self::Flat(point, normal) => {
-                let (speed, height) = (normal.dot(line.direction), normal.dot(*point - line.origin));
+                let (speed, height) =
+                    (normal.dot(line.direction), normal.dot(*point - line.origin));
                 if speed.is_positive() {
                     Within::Between(-Dd::INFINITY, height / speed)
                 } else if speed.is_negative() {
@@ -49,6 +51,21 @@ impl Face {
         }
     }
 
+    /// By how much t may be off where the line is off by its roundings. The face that
+    /// is `met` needs it in its tip only; elsewhere it is judged by itself.
+    fn waver(&self, line: &Line, t: Dd, met: bool) -> f64 {
+        let tip = match self {
+            Self::Round(side) => side.tip_cosine(line, t),
+            _ => None,
+        };
+        let cosine = match tip {
+            Some(cosine) => cosine,
+            None if met => return 0.0,
+            None => line.cosine(self.normal(line.at(t))),
+        };
+        WAVER * line.scale / (cosine * line.length)
+    }
+
     fn distance(&self, point: Long) -> Dd {
         match self {
             Self::Flat(on, normal) => (point - *on).dot(*normal),
@@ -70,11 +87,61 @@ impl Face {
 #[derive(Debug)]
 pub(crate) struct Convex {
     faces: Vec<Face>,
+    /// A ball around it.
+    centre: Long,
+    reach: f64,
 }
 
 impl Convex {
-    pub(crate) fn new(faces: Vec<Face>) -> Self {
-        Self { faces }
+    pub(crate) fn new(faces: Vec<Face>, (centre, reach): (Point, f64)) -> Self {
+        Self { faces, centre: Long::from(centre), reach }
+    }
+
+    /// The face that is farthest inward of a point, how far the point is outside
+    /// of it, and how fast that grows along a line.
+    fn outmost(&self, line: &Line, t: Dd) -> (f64, f64) {
+        let point = line.at(t);
+        let distances = self.faces.iter().map(|face| (face, face.distance(point)));
+        let (face, distance) = distances
+            .max_by(|(_, a), (_, b)| a.partial_cmp(b).expect("no NaN"))
+            .expect("it has faces");
+        (distance.round(), face.normal(point).dot(line.direction).round())
+    }
+
+    /// How near a line comes to the body that it misses, and where.
+    ///
+    /// The distance from the body's faces is a convex function along the line, so
+    /// it lies above its tangents: where those at both ends of a stretch meet, it
+    /// is evaluated next, until it is found or can no longer be of interest.
+    fn clearance(&self, line: &Line) -> (Dd, f64) {
+        let middle = line.nearest_to(self.centre);
+        let half = Dd::from(4.0 * self.reach / line.length);
+        let (mut low, mut high) = (middle - half, middle + half);
+        let (mut at_low, mut at_high) = (self.outmost(line, low), self.outmost(line, high));
+        for _ in 0..200 {
+            if at_low.1 >= 0.0 {
+                return (low, at_low.0);
+            }
+            if at_high.1 <= 0.0 {
+                return (high, at_high.0);
+            }
+            let width = (high - low).round();
+            let to = (at_low.0 - at_high.0 + at_high.1 * width) / (at_high.1 - at_low.1);
+            let bound = at_low.0 + at_low.1 * to;
+            // So near an end its tangent would be the old one again.
+            let inside = to.clamp(1e-3 * width, (1.0 - 1e-3) * width);
+            let t = low + Dd::from(inside);
+            let (distance, slope) = self.outmost(line, t);
+            if bound > BAND * line.scale || distance - bound < 1e-3 * BAND * line.scale {
+                return (t, distance.max(0.0));
+            }
+            if slope < 0.0 {
+                (low, at_low) = (t, (distance, slope));
+            } else {
+                (high, at_high) = (t, (distance, slope));
+            }
+        }
+        (low, at_low.0.min(at_high.0).max(0.0))
     }
 }
 
@@ -82,11 +149,12 @@ impl Figure for Convex {
     fn crossings(&self, line: &Line, found: &mut Vec<Crossing>) {
         let (mut from, mut to) = (-Dd::INFINITY, Dd::INFINITY);
         let (mut first, mut last) = (0, 0);
-        for (part, face) in self.faces.iter().enumerate() {
-            let (enters, leaves) = match face.within(line) {
-                Within::Never(nearest) => (nearest, nearest),
-                Within::Between(enters, leaves) => (enters, leaves),
-            };
+        let stretches = self.faces.iter().map(|face| match face.within(line) {
+            Within::Never(nearest) => (nearest, nearest),
+            Within::Between(enters, leaves) => (enters, leaves),
+        });
+        let stretches: Vec<_> = stretches.collect();
+        for (part, &(enters, leaves)) in stretches.iter().enumerate() {
             if enters > from {
                 (from, first) = (enters, part);
             }
@@ -94,28 +162,40 @@ impl Figure for Convex {
                 (to, last) = (leaves, part);
             }
         }
-        assert!(from.is_finite() && to.is_finite(), "no line stays within: {line:?}");
-        let middle = (from + to).half();
-        let at = line.at(middle);
-        let distances: Vec<f64> = self.faces.iter().map(|f| f.distance(at).round()).collect();
-        if from < to && distances.iter().all(|d| *d < 0.0) {
-            // The stretch between two planes is as deep in the middle as half the
-            // way there times the smaller cosine, which is within a factor of two
-            // of what it takes to push the line out.
-            let depth = -distances.iter().fold(f64::NEG_INFINITY, |a, &b| a.max(b));
-            found.push(Crossing::new(from, first, true, depth / line.scale));
-            found.push(Crossing::new(to, last, true, depth / line.scale));
-            return;
+        let depth = if from < to {
+            assert!(from.is_finite() && to.is_finite(), "no line stays within: {line:?}");
+            -self.outmost(line, (from + to).half()).0
+        } else {
+            0.0
+        };
+        // In the middle it is at least half as deep as it is anywhere.
+        let is_crossed = depth > 0.0;
+        if is_crossed {
+            // Near an edge, and in a tip, a face that is crossed at a smaller angle may
+            // come first.
+            let (mut sooner, mut later) = (0.0_f64, 0.0_f64);
+            for (part, &(enters, leaves)) in stretches.iter().enumerate() {
+                let waver = |t: Dd, met: usize| self.faces[part].waver(line, t, part == met);
+                if enters.is_finite() {
+                    later = later.max((enters - from).round() + waver(enters, first));
+                }
+                if leaves.is_finite() {
+                    sooner = sooner.max((to - leaves).round() + waver(leaves, last));
+                }
+            }
+            let margin = depth / line.scale;
+            found.push(Crossing { slack: later, ..Crossing::new(from, first, true, margin) });
+            found.push(Crossing { slack: sooner, ..Crossing::new(to, last, true, margin) });
         }
-        // In the middle of the gap the line is outside of both surfaces between
-        // which it slips through; the nearer one says how far it must be moved,
-        // unless it is farther from a third.
-        let between = distances[first].min(distances[last]).max(0.0);
-        let others = distances.iter().enumerate().filter(|(part, _)| ![first, last].contains(part));
-        let aside = others.fold(between, |a, (_, &b)| a.max(b)) / line.scale;
-        if aside < BAND {
-            let outside = distances.iter().enumerate().filter(|(_, d)| **d / line.scale > -BAND);
-            found.extend(outside.map(|(part, _)| Crossing::new(middle, part, false, aside)));
+        if depth < BAND * line.scale {
+            let (nearest, aside) =
+                if is_crossed { ((from + to).half(), depth) } else { self.clearance(line) };
+            // Around an edge, or along a face, it may be any of them that is found.
+            if aside < BAND * line.scale {
+                let margin = aside / line.scale;
+                let parts = 0..self.faces.len();
+                found.extend(parts.map(|part| Crossing::new(nearest, part, false, margin)));
+            }
         }
     }
 
@@ -123,8 +203,18 @@ impl Figure for Convex {
         self.faces[part].distance(point)
     }
 
+    fn off(&self, point: Long) -> f64 {
+        let distances = self.faces.iter().map(|face| face.distance(point).round());
+        distances.fold(f64::NEG_INFINITY, f64::max).abs()
+    }
+
     fn normal(&self, part: usize, point: Long) -> Long {
         self.faces[part].normal(point)
+    }
+
+    fn parts_near(&self, point: Long, within: f64) -> Vec<usize> {
+        let near = |part: &usize| self.faces[*part].distance(point).round().abs() <= within;
+        (0..self.faces.len()).filter(near).collect()
     }
 
     fn is_closed(&self) -> bool {

@@ -100,10 +100,6 @@ impl Dd {
     pub(crate) fn min(self, other: Self) -> Self {
         if other < self { other } else { self }
     }
-
-    pub(crate) fn max(self, other: Self) -> Self {
-        if other > self { other } else { self }
-    }
 }
 
 impl From<f64> for Dd {

@@ -36,6 +36,10 @@ impl Crossing {
 /// reached. Each test prints the widest margin at which it saw the other answer.
 pub(crate) const BAND: f64 = 1e-13;
 
+/// By this share of the size of the scene seen from a ray its own roundings may move
+/// it; the crossing moves by 1 / |cos| of that.
+pub(crate) const WAVER: f64 = 4e-15;
+
 /// A shape, described anew.
 pub(crate) trait Figure: std::fmt::Debug {
     /// All crossings of the whole line, those behind its origin too, in any
@@ -46,10 +50,19 @@ pub(crate) trait Figure: std::fmt::Debug {
     /// side to which its normal points.
     fn side(&self, part: usize, point: Long) -> Dd;
 
+    /// No less than how far a point is from the whole surface, edges included, where
+    /// it is near.
+    fn off(&self, point: Long) -> f64;
+
     /// The unit normal of a part at the point of it that is nearest: outward where
     /// the shape is closed, else as it was described.
     fn normal(&self, part: usize, point: Long) -> Long;
 
-    /// Whether it has an inside.
+    /// The parts that come so near to a point, where more than one may.
+    fn parts_near(&self, _point: Long, _within: f64) -> Vec<usize> {
+        Vec::new()
+    }
+
+    /// Whether every line crosses it an even number of times.
     fn is_closed(&self) -> bool;
 }

@@ -27,8 +27,10 @@ impl Long {
         self.dot(self).sqrt()
     }
 
+    /// Of length 1; that of length 0 stays as it is.
     pub(crate) fn unit(self) -> Self {
-        self.times(Dd::ONE / self.norm())
+        let norm = self.norm();
+        if norm.is_zero() { self } else { self.times(Dd::ONE / norm) }
     }
 
     pub(crate) fn round(self) -> Vector {
@@ -140,6 +142,8 @@ pub(crate) struct Line {
     /// The size of what the ray's numbers are held against: the lengths by
     /// which their roundings count.
     pub(crate) scale: f64,
+    /// How far its origin is from the middle of the shape, and the size of that.
+    pub(crate) size: f64,
 }
 
 impl Line {

@@ -1,12 +1,13 @@
 //! How shapes are put together and where they stand.
 
 use super::{
-    BOX, CONE, CUBE, CYLINDER, Child, DISC, Element, FRUSTUM, MESH, PLANE, RECTANGLE, SPHERE,
+    BOX, CONE, CUBE, CYLINDER, Child, DISC, Element, FRUSTUM, MESH, PLANE, RECTANGLE, SPHERE, Slip,
     TETRAHEDRON, TORUS, TRIANGLE, any, one_of, required,
 };
 
-const ON_THE_USE: &str =
-    "put it on the <use> of the definition, or on a <group> around what it is to move";
+const ON_THE_USE: Slip = Slip::Instead(
+    "put it on the <use> of the definition, or on a <group> around what it is to move",
+);
 
 /// `<translate>`
 pub static TRANSLATE: Element = Element {
@@ -66,9 +67,10 @@ pub static MATRIX: Element = Element {
 };
 
 /// What moves a group.
-pub const TRANSFORMS: &[Child] = &[any(&TRANSLATE), any(&ROTATE), any(&SCALE), any(&MATRIX)];
+pub static TRANSFORMS: &[Child] = &[any(&TRANSLATE), any(&ROTATE), any(&SCALE), any(&MATRIX)];
 
-const THINGS: &[Child] = &[
+/// What there may be to be seen.
+static THINGS: [Child; 15] = [
     any(&SPHERE),
     any(&PLANE),
     any(&DISC),
@@ -86,21 +88,11 @@ const THINGS: &[Child] = &[
     any(&USE),
 ];
 
-const THINGS_AND_TRANSFORMS: [Child; THINGS.len() + TRANSFORMS.len()] = {
-    let mut all = [THINGS[0]; THINGS.len() + TRANSFORMS.len()];
-    let mut i = 0;
-    while i < all.len() {
-        all[i] = if i < THINGS.len() { THINGS[i] } else { TRANSFORMS[i - THINGS.len()] };
-        i += 1;
-    }
-    all
-};
-
 /// `<shapes>`
 pub static SHAPES: Element = Element {
     name: "shapes",
     summary: "What is there to be seen.",
-    children: THINGS,
+    children: &THINGS,
     ..Element::BARE
 };
 
@@ -110,7 +102,7 @@ pub static DEFINE: Element = Element {
     summary: "Shapes under a name, which each `<use>` of it shows once more. It shows nothing by \
               itself, is kept in memory once, and must not use itself.",
     attributes: &[required("name", "name", "what uses call it; no two definitions share one")],
-    children: THINGS,
+    children: &THINGS,
     slips: &[
         ("translate", ON_THE_USE),
         ("rotate", ON_THE_USE),
@@ -126,11 +118,12 @@ pub static GROUP: Element = Element {
     summary: "Shapes that are moved together. Its transforms apply to all that is in it, wherever \
               among the shapes they stand: what is inside is moved by the first, then by the \
               second, and so on.",
-    children: &THINGS_AND_TRANSFORMS,
+    children: &THINGS,
+    transforms: TRANSFORMS,
     slips: &[
-        ("name", "a group with a name is a <define>, shown by a <use>"),
-        ("material", "give `material` on the shapes"),
-        ("color", "give `color` on the shapes, or on a <material> that they name"),
+        ("name", Slip::Instead("a group with a name is a <define>, shown by a <use>")),
+        ("material", Slip::Instead("give `material` on the shapes")),
+        ("color", Slip::Instead("give `color` on the shapes, or on a <material> that they name")),
     ],
     ..Element::BARE
 };
@@ -140,10 +133,15 @@ pub static USE: Element = Element {
     name: "use",
     summary: "The shapes of a definition once more, moved by its transforms in the order written.",
     attributes: &[required("name", "name of a <define>", "what to show")],
-    children: TRANSFORMS,
+    transforms: TRANSFORMS,
     slips: &[
-        ("material", "give `material` on the shapes of the definition"),
-        ("color", "give `color` on the shapes of the definition, or on a <material> of theirs"),
+        ("material", Slip::Instead("give `material` on the shapes of the definition")),
+        (
+            "color",
+            Slip::Instead(
+                "give `color` on the shapes of the definition, or on a <material> of theirs",
+            ),
+        ),
     ],
     ..Element::BARE
 };

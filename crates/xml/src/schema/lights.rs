@@ -1,6 +1,6 @@
 //! What shines.
 
-use super::{AXIS, Attribute, Element, POINT, any, once, optional, required};
+use super::{AXIS, Attribute, Element, POINT, Slip, any, once, optional, required};
 
 const FALLOFF: Attribute = optional(
     "falloff",
@@ -37,7 +37,7 @@ pub static SUN: Element = Element {
          the sun squarely",
     )],
     children: &[once(&POINT, "the direction in which the light travels; other than zero")],
-    slips: &[("falloff", "leave it out: the light of a sun does not weaken")],
+    slips: &[("falloff", Slip::Instead("leave it out: the light of a sun does not weaken"))],
     ..Element::BARE
 };
 
@@ -67,8 +67,8 @@ pub static SPOT: Element = Element {
     ],
     children: &[once(&POINT, "where the lamp is"), once(&AXIS, "where the middle of it shines")],
     slips: &[
-        ("angle", "give `inner` and `outer`, in degrees from the axis"),
-        ("target", "give the direction of its light as <axis>"),
+        ("angle", Slip::Instead("give `inner` and `outer`, in degrees from the axis")),
+        ("target", Slip::Instead("give the direction of its light as <axis>")),
     ],
     ..Element::BARE
 };

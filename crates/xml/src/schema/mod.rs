@@ -32,11 +32,13 @@ pub struct Element {
     pub one_of: &'static [&'static [&'static str]],
     /// What the numbers of its `chess-size` are, where it has that.
     pub cells: Option<Cells>,
-    /// What elements it may hold.
+    /// What elements it may hold, apart from transforms.
     pub children: &'static [Child],
+    /// The transforms, where it is moved by them.
+    pub transforms: &'static [Child],
     /// Names of attributes and elements that it does not have but might well
-    /// be thought to, and what to do instead.
-    pub slips: &'static [(&'static str, &'static str)],
+    /// be thought to.
+    pub slips: &'static [(&'static str, Slip)],
 }
 
 impl Element {
@@ -49,6 +51,7 @@ impl Element {
         one_of: &[],
         cells: None,
         children: &[],
+        transforms: &[],
         slips: &[],
     };
 
@@ -56,6 +59,20 @@ impl Element {
     pub fn all_attributes(&self) -> impl Iterator<Item = &'static Attribute> + Clone {
         self.attributes.iter().chain(self.surface)
     }
+
+    /// All elements it may hold.
+    pub fn all_children(&self) -> impl Iterator<Item = &'static Child> + Clone {
+        self.children.iter().chain(self.transforms)
+    }
+}
+
+/// What is to be said of a name that an element does not know.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Slip {
+    /// That this attribute was probably meant.
+    Meant(&'static str),
+    /// What to do instead.
+    Instead(&'static str),
 }
 
 /// An attribute of an element.
@@ -197,7 +214,7 @@ pub(crate) fn parents_of(name: &str) -> impl Iterator<Item = &'static Element> {
     ELEMENTS
         .iter()
         .copied()
-        .filter(move |parent| parent.children.iter().any(|child| child.element.name == name))
+        .filter(move |parent| parent.all_children().any(|child| child.element.name == name))
 }
 
 #[cfg(test)]
@@ -207,7 +224,7 @@ mod tests {
     #[test]
     fn every_child_is_listed_after_its_parents() {
         for (i, element) in ELEMENTS.iter().enumerate() {
-            for child in element.children {
+            for child in element.all_children() {
                 let place = ELEMENTS.iter().position(|e| std::ptr::eq(*e, child.element));
                 // Groups hold groups.
                 assert!(place.is_some_and(|place| place >= i), "{}", child.element.name);
@@ -238,7 +255,10 @@ mod tests {
                 assert_eq!(count, usize::from(attribute.need == Need::OneOf));
             }
             assert!(element.one_of.iter().flat_map(|set| set.iter()).all(|name| has(name)));
-            assert!(!element.slips.iter().any(|(name, _)| has(name)), "{}", element.name);
+            for (name, slip) in element.slips {
+                assert!(!has(name), "{name} of {}", element.name);
+                assert!(!matches!(slip, Slip::Meant(meant) if !has(meant)), "{}", element.name);
+            }
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::surface::MATERIAL_OF_SHAPE;
 use super::{
     Attribute, Cells, DIRECTION_SUMMARY, Element, ORIGIN, POINT, POINT_SUMMARY, SIDE_SUMMARY,
-    SURFACE, once, optional, required, xyz,
+    SURFACE, Slip, once, optional, required, xyz,
 };
 
 const LENGTH: Attribute = Cells::Length.attribute();
@@ -17,8 +17,7 @@ const OPEN: Attribute = optional(
 );
 
 /// Names that others have for a `size`.
-const RADIUS: &[(&str, &str)] =
-    &[("radius", "did you mean `size`?"), ("r", "did you mean `size`?")];
+const RADIUS: &[(&str, Slip)] = &[("radius", Slip::Meant("size")), ("r", Slip::Meant("size"))];
 
 /// `<normal>`
 pub static NORMAL: Element = xyz("normal", DIRECTION_SUMMARY);
@@ -114,7 +113,10 @@ pub static RECTANGLE: Element = Element {
         once(&ACROSS, "the side from that corner to the next"),
         once(&UPWARD, "the other side there; not parallel to the first"),
     ],
-    slips: &[("size", "the lengths of <across> and <upward> are those of its sides")],
+    slips: &[(
+        "size",
+        Slip::Instead("the lengths of <across> and <upward> are those of its sides"),
+    )],
     ..Element::BARE
 };
 
@@ -140,7 +142,10 @@ pub static BOX: Element = Element {
         once(&FROM, "a corner"),
         once(&TO, "the opposite corner; different in all three coordinates"),
     ],
-    slips: &[("size", "the corners <from> and <to> say how large it is; <cube> has a size")],
+    slips: &[(
+        "size",
+        Slip::Instead("the corners <from> and <to> say how large it is; <cube> has a size"),
+    )],
     ..Element::BARE
 };
 
@@ -207,10 +212,7 @@ pub static CONE: Element = Element {
     ],
     surface: SURFACE,
     cells: Some(Cells::LengthAndAngle),
-    children: &[
-        once(&BASE, "the middle of its base"),
-        once(&TOP, "its apex; not the same point"),
-    ],
+    children: &[once(&BASE, "the middle of its base"), once(&TOP, "its apex; not the same point")],
     slips: RADIUS,
     ..Element::BARE
 };
@@ -279,7 +281,7 @@ pub static MESH: Element = Element {
         ),
         optional(
             "part",
-            "name of a group or object in an OBJ file",
+            "name of a material, group or object in an OBJ file",
             "the faces that are used; all where it is missing",
         ),
         LENGTH,
@@ -288,8 +290,8 @@ pub static MESH: Element = Element {
     surface: SURFACE,
     cells: Some(Cells::Length),
     slips: &[
-        ("size", "put it in a <group> with a <scale>"),
-        ("point", "put it in a <group> with a <translate>"),
+        ("size", Slip::Instead("put it in a <group> with a <scale>")),
+        ("point", Slip::Instead("put it in a <group> with a <translate>")),
     ],
     ..Element::BARE
 };

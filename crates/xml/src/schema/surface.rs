@@ -1,6 +1,6 @@
 //! What surfaces look like.
 
-use super::{Attribute, Element, optional, required};
+use super::{Attribute, Element, Slip, optional, required};
 
 /// What the numbers of `chess-size` are for a shape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -118,7 +118,9 @@ pub static MATERIAL: Element = Element {
     surface: SURFACE,
     slips: &[(
         "chess-size",
-        "give `chess-size` on the shapes: what its numbers mean depends on the shape",
+        Slip::Instead(
+            "give `chess-size` on the shapes: what its numbers mean depends on the shape",
+        ),
     )],
     ..Element::BARE
 };

@@ -1,8 +1,8 @@
 //! The whole, and who looks at it.
 
 use super::{
-    DEFINE, DIRECTION_SUMMARY, Element, LIGHTS, MATERIAL, POINT_SUMMARY, SHAPES, any,
-    at_most_once, once, one_of, optional, required, xyz,
+    DEFINE, DIRECTION_SUMMARY, Element, LIGHTS, MATERIAL, POINT_SUMMARY, SHAPES, any, at_most_once,
+    once, one_of, optional, required, xyz,
 };
 
 /// `<origin>`

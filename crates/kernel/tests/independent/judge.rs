@@ -1,0 +1,277 @@
+//! Compares what the kernel says about a ray with what is exactly so.
+
+use crate::case::{Case, Entry};
+use crate::dd::Dd;
+use crate::figure::BAND;
+use crate::sample::{any_direction, power_of_ten};
+use crate::tally::Tally;
+use fastrand::Rng;
+use lancer_kernel::{Hit, Which};
+use lancer_math::{Ray, Vector};
+
+/// The distance that is asked for where |cos| is at least [`STEEP`].
+const RELATIVE: f64 = 1e-12;
+const STEEP: f64 = 1e-3;
+
+/// How many roundings of the lengths that a ray's numbers are held against may
+/// move the surface along its normal, where less is asked for: below [`STEEP`],
+/// where the ray starts nearer to the surface than a quarter of those lengths
+/// (an origin that is known to a rounding knows no better how near that is), and
+/// where shapes are placed (the ray's numbers in the space of the group are
+/// rounded themselves).
+const ROUNDINGS: f64 = 16.0;
+
+/// Whether a surface is ahead of a ray or behind it may be found either way where
+/// the origin is so many roundings away from it.
+const AT_ORIGIN: f64 = 16.0;
+
+/// Half the distance of two neighbouring doubles in [1, 2).
+const ROUNDING: f64 = f64::EPSILON / 2.0;
+
+impl Entry {
+    /// The lengths by which roundings count at the crossing.
+    fn reach(&self) -> f64 {
+        self.line.scale + self.crossing.t.round().abs() * self.line.length
+    }
+
+    fn is_sure(&self) -> bool {
+        self.crossing.is_there && self.crossing.margin >= BAND
+    }
+
+    fn is_ahead(&self) -> bool {
+        self.crossing.t.is_positive()
+    }
+
+    /// Where the ray leaves a surface by some distance, the others that meet it there
+    /// are as near.
+    fn is_at_origin(&self, left: Option<Left>) -> bool {
+        let along = self.crossing.t.round().abs() * self.line.length * self.local_cosine;
+        let by = match left {
+            Some(left) if (left.item, left.part) == (self.item, self.crossing.part) => {
+                return false;
+            }
+            Some(left) => 2.0 * left.by * self.shrinking,
+            None => 0.0,
+        };
+        along.max(self.from_origin) <= by + AT_ORIGIN * ROUNDING * self.reach()
+    }
+
+    /// Whether the distance must be right to [`RELATIVE`], whatever the roundings.
+    fn is_plain(&self, case: &Case) -> bool {
+        case.frame(self.item).is_identity && self.is_far()
+    }
+
+    fn is_far(&self) -> bool {
+        self.crossing.t.round().abs() * self.line.length >= self.line.size / 4.0
+    }
+
+    fn tolerance(&self, case: &Case) -> f64 {
+        let relative = RELATIVE * self.crossing.t.round().abs();
+        let rounding = ROUNDINGS * ROUNDING * self.reach() / (self.local_cosine * self.line.length);
+        let is_strict = self.cosine >= STEEP && self.is_plain(case);
+        self.crossing.slack + if is_strict { relative } else { relative.max(rounding) }
+    }
+
+    fn off(&self, t: f64) -> f64 {
+        (self.crossing.t - Dd::from(t)).abs().round()
+    }
+
+    /// Whether this is what was found at `t`: where it is not sure, a place near the
+    /// surface is enough.
+    fn is_found_at(&self, case: &Case, t: f64) -> bool {
+        if self.crossing.is_there && self.off(t) <= self.tolerance(case) {
+            return true;
+        }
+        let (figure, place) = (&case.subject(self.item).figure, self.line.at(Dd::from(t)));
+        let near = 4.0 * BAND * (self.line.scale + t.abs() * self.line.length);
+        self.crossing.margin < BAND
+            && figure.side(self.crossing.part, place).round().abs() <= near
+            && figure.off(place) <= near
+    }
+}
+
+/// A ray, and how it was made.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Asked {
+    pub(crate) ray: Ray,
+    /// It was not made to be difficult.
+    pub(crate) is_easy: bool,
+    pub(crate) left: Option<Left>,
+}
+
+/// What a ray was made to start off from.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Left {
+    item: u32,
+    part: usize,
+    by: f64,
+}
+
+/// All that can be asked about one ray.
+pub(crate) fn judge(case: &Case, asked: &Asked, rng: &mut Rng, tally: &mut Tally) {
+    let (ray, prepared) = (&asked.ray, &case.prepared);
+    let entries = case.crossings(ray);
+    let hit = prepared.nearest(ray, f64::INFINITY);
+    tally.count(asked, hit.is_some());
+
+    let is_open = |e: &Entry| e.is_at_origin(asked.left);
+    let needed = |e: &&Entry| e.is_sure() && e.is_ahead() && !is_open(e);
+    let first = entries.iter().find(needed);
+    let until = first.map_or(f64::INFINITY, |e| e.crossing.t.round());
+    let doubtful =
+        |e: &Entry| e.crossing.t.round() < until && (is_open(e) || !e.is_sure() && e.is_ahead());
+    if entries.iter().any(doubtful) {
+        tally.in_band(asked.is_easy);
+    }
+    let Some(hit) = hit else {
+        if let Some(first) = first {
+            tally.fail(case, ray, first, "misses", None);
+        } else if let Some(e) =
+            entries.iter().find(|e| e.crossing.is_there && e.is_ahead() && !is_open(e))
+        {
+            tally.widen(e);
+        }
+        return all(case, asked, &entries, None, tally);
+    };
+    let may_be = |e: &&Entry| {
+        let ahead = e.is_ahead() || is_open(e) || !e.is_sure() && asked.left.is_none();
+        e.item == hit.item && ahead && e.is_found_at(case, hit.t)
+    };
+    let found: Vec<&Entry> = entries.iter().filter(may_be).collect();
+    if let Some(first) = first
+        && until + first.tolerance(case) < hit.t
+    {
+        tally.fail(case, ray, first, "finds too late", Some(&hit));
+    } else if found.is_empty() {
+        tally.fail_at(case, ray, first, "finds what is not there", &hit);
+    } else {
+        if found.iter().all(|e| !e.crossing.is_there) {
+            tally.widen(found[0]);
+        }
+        let nearest = found.iter().filter(|e| e.is_sure());
+        let off = |e: &&&Entry| e.off(hit.t);
+        if let Some(e) = nearest.min_by(|a, b| off(a).total_cmp(&off(b))) {
+            let is_steep = e.cosine >= STEEP;
+            tally.distance(case, e, &hit, is_steep && e.is_far(), e.reach() * ROUNDING);
+        }
+        let part = contact(case, ray, &hit, &found, tally).filter(|_| asked.left.is_none());
+        if let Some(part) = part {
+            leave(case, ray, &hit, (found[0], part), rng, tally);
+        }
+    }
+    all(case, asked, &entries, Some(hit), tally);
+}
+
+/// What [`Prepared::all`](lancer_kernel::Prepared::all) and `any` say.
+fn all(case: &Case, asked: &Asked, entries: &[Entry], hit: Option<Hit>, tally: &mut Tally) {
+    let ray = &asked.ray;
+    let hits = case.prepared.all(ray, (f64::NEG_INFINITY, f64::INFINITY), Which::All);
+    // Those at the origin are before it for the one and behind it for the other.
+    let is_open = |h: &Hit| {
+        let own = |e: &&Entry| e.item == h.item && e.is_found_at(case, h.t);
+        entries.iter().filter(own).any(|e| e.is_at_origin(asked.left))
+    };
+    let ahead = hits.iter().find(|h| h.t > 0.0);
+    if ahead.map(|h| (h.t, h.item)) != hit.map(|h| (h.t, h.item)) && !ahead.is_some_and(is_open) {
+        tally.complain(case, ray, format!("`nearest` finds {hit:?}, `all` {ahead:?}"));
+    }
+    if let Some(hit) = hit {
+        let any = |t_max| case.prepared.any(ray, t_max, Which::All);
+        // A box that holds it may seem to begin a few roundings later.
+        let own = entries.iter().filter(|e| e.item == hit.item && e.is_found_at(case, hit.t));
+        let later = own.map(|e| e.tolerance(case)).fold(0.0, f64::max);
+        let (nearer, there) = (any(hit.t), any((hit.t + later).next_up()));
+        if nearer || !there {
+            let what = format!("nearest is {hit:?}; `any` up to it: {nearer}, with it: {there}");
+            tally.complain(case, ray, what);
+        }
+    }
+    for e in entries.iter().filter(|e| e.is_sure()) {
+        if !hits.iter().any(|h| h.item == e.item && e.is_found_at(case, h.t)) {
+            tally.fail(case, ray, e, "leaves out of all", None);
+        }
+    }
+    for h in &hits {
+        if !entries.iter().any(|e| e.item == h.item && e.is_found_at(case, h.t)) {
+            tally.fail_at(case, ray, None, "counts among all what is not there", h);
+        }
+    }
+    for item in (0..case.item_count()).filter(|&i| case.subject(i).figure.is_closed()) {
+        let of_item: Vec<_> = hits.iter().filter(|h| h.item == item).collect();
+        let found_ahead = of_item.iter().filter(|h| h.t > 0.0).count();
+        let own = || entries.iter().filter(|e| e.item == item);
+        let really_ahead = own().filter(|e| e.crossing.is_there && e.is_ahead()).count();
+        let is_clear = own().all(|e| !e.is_at_origin(asked.left));
+        if of_item.len() % 2 == 1 || is_clear && (found_ahead + really_ahead) % 2 == 1 {
+            let what = format!("closed item {item} is crossed an odd number of times: {of_item:?}");
+            tally.complain(case, ray, what);
+        }
+    }
+}
+
+/// The point of a hit and the normal there. Near an edge it may be that of either
+/// surface; returned is the one that it is.
+fn contact(
+    case: &Case,
+    ray: &Ray,
+    hit: &Hit,
+    found: &[&Entry],
+    tally: &mut Tally,
+) -> Option<usize> {
+    let surface = case.prepared.expand(ray, hit);
+    let mut worst = Vec::new();
+    let (e, figure) = (found[0], &case.subject(hit.item).figure);
+    let place = e.line.at(Dd::from(hit.t));
+    let near = figure.parts_near(place, 4.0 * BAND * e.reach());
+    for part in found.iter().map(|e| e.crossing.part).chain(near) {
+        let (side, normal) = e.side(case, part, surface.point);
+        let length = normal.norm();
+        let unit = normal / length;
+        // In a box of that half side around the point there is one of the surface.
+        let bound = surface.error * unit.lp_norm(1);
+        let off = side.abs() / length;
+        let turned = (surface.normal - unit).norm();
+        // Near a tip and on tubes that are thin for where they are, the normal turns
+        // within the error of the point.
+        let turns = |by: Vector| {
+            let (_, other) = e.side(case, part, surface.point + by * surface.error);
+            (other / other.norm() - unit).norm()
+        };
+        let spread = || {
+            let around = [Vector::x(), Vector::y(), Vector::z()];
+            around.iter().flat_map(|v| [turns(*v), turns(-v)]).fold(0.0, f64::max)
+        };
+        if off <= bound && (turned <= 1e-9 || turned <= 1e-9 + 2.0 * spread()) {
+            tally.contact(off / bound, turned, surface.error / e.reach());
+            return Some(part);
+        }
+        worst.push(format!("{off:e} off, allowed {bound:e}; normal {turned:e} off"));
+    }
+    let what = format!("{hit:?} expands to {:?}: {}", surface.point, worst.join(" or "));
+    tally.complain(case, ray, what);
+    None
+}
+
+/// A ray that leaves a hit in any direction starts on the side to which it goes.
+fn leave(
+    case: &Case,
+    ray: &Ray,
+    hit: &Hit,
+    (e, part): (&Entry, usize),
+    rng: &mut Rng,
+    tally: &mut Tally,
+) {
+    let surface = case.prepared.expand(ray, hit);
+    let direction = any_direction(rng) * power_of_ten(rng, -1.0, 1.0);
+    let out = surface.leave(direction);
+    let (side, normal) = e.side(case, part, out.origin);
+    let goes_out = direction.dot(&surface.normal) >= 0.0;
+    // In the tip of a cone there is no room for that.
+    let is_tip = (normal / normal.norm() - surface.normal).norm() > 0.1;
+    if !is_tip && (side == 0.0 || goes_out != (side > 0.0)) {
+        let what = format!("leaving {hit:?} along {direction:?} starts {side:e} off the surface");
+        tally.complain(case, ray, what);
+    }
+    let left = Some(Left { item: hit.item, part, by: 2.0 * surface.error });
+    judge(case, &Asked { ray: out, is_easy: false, left }, rng, tally);
+}
