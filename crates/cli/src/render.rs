@@ -252,10 +252,12 @@ fn tell_troubles(name: &str, rendered: &Rendered) {
         "rays left a medium that they had not entered, or entered one twice",
         "close the transparent shape there, or make it thin=\"true\"",
     );
-    let deepest = Whitted::DEEPEST;
+    let (deepest, most) = (Whitted::DEEPEST, Whitted::MOST_RAYS);
     tell(
-        &troubles.depth,
-        &format!("rays still mattered after {deepest} surfaces and were given up"),
+        &troubles.given_up,
+        &format!(
+            "rays still mattered after {deepest} surfaces, or {most} rays in a pixel, and were given up"
+        ),
         "give mirrors a gloss below 1, or raise --cutoff",
     );
     tell(

@@ -39,7 +39,7 @@ pub(crate) struct Rays {
 #[derive(Debug, Serialize)]
 pub(crate) struct Troubles {
     media: Count,
-    depth: Count,
+    given_up: Count,
     not_finite: Count,
 }
 
@@ -57,8 +57,8 @@ impl From<Trouble> for Count {
 
 impl From<Met> for Troubles {
     fn from(met: Met) -> Self {
-        let Met { media, depth, not_finite } = met;
-        Self { media: media.into(), depth: depth.into(), not_finite: not_finite.into() }
+        let Met { media, given_up, not_finite } = met;
+        Self { media: media.into(), given_up: given_up.into(), not_finite: not_finite.into() }
     }
 }
 

@@ -41,8 +41,8 @@ pub struct Troubles {
     /// they were: the transparent shapes do not enclose what they should.
     pub media: Trouble,
     /// Rays that were not followed any more, though they mattered, because so
-    /// many surfaces came before.
-    pub depth: Trouble,
+    /// many surfaces, or rays of the pixel, came before.
+    pub given_up: Trouble,
     /// Pixels whose colour was not a finite number; they are black.
     pub not_finite: Trouble,
 }
@@ -50,7 +50,7 @@ pub struct Troubles {
 impl AddAssign for Troubles {
     fn add_assign(&mut self, other: Self) {
         self.media += other.media;
-        self.depth += other.depth;
+        self.given_up += other.given_up;
         self.not_finite += other.not_finite;
     }
 }

@@ -102,11 +102,8 @@ pub fn render(
     let film = Film::new(frame, window, engine.display())?;
     let layers = settings.layers.then(|| Layers::new(frame, window)).transpose()?;
     let exposure = Showing::new(scene, engine, settings);
-    let to_do = if settings.for_display && exposure.looks_at_frame() {
-        frame.window()
-    } else {
-        window
-    };
+    let to_do =
+        if settings.for_display && exposure.looks_at_frame() { frame.window() } else { window };
     let is_whole = to_do == frame.window();
     let brightest = (is_whole && exposure == Showing::AutoExposed)
         .then(|| reserve(frame.pixels()))

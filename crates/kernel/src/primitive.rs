@@ -33,8 +33,10 @@ pub(crate) enum Cell {
 /// There is no smallest and no largest distance, and comparisons are written
 /// so that what is not a number is no hit.
 pub(crate) trait Primitive: std::fmt::Debug + Send + Sync {
-    /// All crossings of the ray's line. Of a closed shape they come in pairs
-    /// but for one that only touches, which may be reported or not.
+    /// All crossings of the ray's line, where no line can have more than four:
+    /// of meshes and of shapes of the user's own, which have a `nearest` and an
+    /// `each` of their own, none. Of a closed shape they come in pairs, and where
+    /// the line only touches it, there is a pair or none.
     fn crossings(&self, ray: &Ray) -> Crossings;
 
     /// The nearest crossing with 0 < t < `t_max`.

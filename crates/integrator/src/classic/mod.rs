@@ -64,7 +64,9 @@ pub(crate) fn warnings(scene: &Scene) -> Vec<String> {
     let mut sizes = vec![camera.origin().get().coords.amax(), camera.target().get().coords.amax()];
     for (i, light) in scene.lights.iter().enumerate() {
         match light {
-            Light::Lamp { point, .. } | Light::Spot { point, .. } => sizes.push(point.get().coords.amax()),
+            Light::Lamp { point, .. } | Light::Spot { point, .. } => {
+                sizes.push(point.get().coords.amax())
+            }
             Light::Sun { direction, .. } if !can_be_squared(direction.get()) => {
                 warnings.push(format!(
                     "the direction of light {} is too long or too short for this engine to \

@@ -46,9 +46,11 @@ pub(super) fn transmittance(medium: &Medium, length: f64) -> [f64; 3] {
     if absorption == [0.0; 3] {
         return [1.0; 3];
     }
-    absorption.map(|sigma| {
-        if sigma == 0.0 { 1.0 } else { lancer_math::elementary::exp(-sigma * length) }
-    })
+    absorption.map(
+        |sigma| {
+            if sigma == 0.0 { 1.0 } else { lancer_math::elementary::exp(-sigma * length) }
+        },
+    )
 }
 
 #[cfg(test)]

@@ -32,6 +32,10 @@ impl Whitted {
     /// matters then is counted as a trouble.
     pub const DEEPEST: u32 = tracer::DEEPEST;
 
+    /// How many rays are followed for a pixel, at most; those that still matter
+    /// then are counted likewise.
+    pub const MOST_RAYS: u32 = tracer::MOST_RAYS;
+
     /// The engine with the usual cutoff.
     #[must_use]
     pub const fn new() -> Self {
@@ -108,10 +112,10 @@ impl Engine for Whitted {
 fn in_groups(groups: &[Placed], seen: &mut BTreeSet<*const Group>, warnings: &mut Vec<String>) {
     for placed in groups {
         if seen.insert(Arc::as_ptr(&placed.group)) {
-            let of = placed.group.name().map_or_else(
-                || " of a group".to_owned(),
-                |name| format!(" of `{name}`"),
-            );
+            let of = placed
+                .group
+                .name()
+                .map_or_else(|| " of a group".to_owned(), |name| format!(" of `{name}`"));
             open_media(placed.group.shapes(), &of, warnings);
             in_groups(placed.group.groups(), seen, warnings);
         }

@@ -57,7 +57,8 @@ impl<'a> Stop<'a> {
     pub(super) fn at(prepared: &'a Prepared, ray: &Ray, hit: &Hit) -> Self {
         let first = Touch::new(prepared, ray, hit);
         // Generous: those that do not belong are sorted out below.
-        let reach = hit.t + 8.0 * first.slack;
+        // And beyond the hit itself, where the slack is nothing or not a number.
+        let reach = (hit.t + 8.0 * first.slack).max(hit.t).next_up();
         let hits = prepared.all(ray, (hit.t.next_down(), reach), lancer_kernel::Which::All);
         Self::gather(prepared, ray, &hits).0
     }
@@ -101,11 +102,7 @@ impl<'a> Stop<'a> {
     ///
     /// The surface that is seen is that of the solid that outranks the others,
     /// of those whose medium is on either side.
-    pub(super) fn border(
-        &self,
-        prepared: &Prepared,
-        media: &mut Media,
-    ) -> Option<Border<'_, 'a>> {
+    pub(super) fn border(&self, prepared: &Prepared, media: &mut Media) -> Option<Border<'_, 'a>> {
         let solids = || self.hits.iter().filter(|touch| touch.point.surface.has_medium());
         solids().next()?;
         let mut makes_sense = true;

@@ -8,6 +8,8 @@ use lancer_film::LayerPixel;
 use lancer_kernel::{Prepared, SurfacePoint};
 use lancer_math::{Ray, Vector};
 use lancer_scene::Scene;
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
 
 /// Red, green and blue while they are summed up.
 pub(super) type Rgb64 = [f64; 3];
@@ -26,9 +28,9 @@ fn scaled(a: Rgb64, factor: f64) -> Rgb64 {
 /// After so many surfaces a ray is given up even where it matters.
 pub(super) const DEEPEST: u32 = 10_000;
 
-/// A ray whose share of the pixel is this part of what may still be left out
-/// is left out. Smaller parts leave out more rays before the sum is used up.
-const DROPPED_PART: f64 = 0.125;
+/// After so many rays a pixel is given up even where the others matter: between
+/// perfect mirrors, glass splits rays without end.
+pub(super) const MOST_RAYS: u32 = 20_000;
 
 /// The engine made ready for a scene.
 pub(super) struct WhittedTracer {
@@ -49,16 +51,49 @@ struct Pending {
     media: Media,
     /// How many surfaces came before.
     depth: u32,
+    /// Which ray of the pixel it is.
+    number: u32,
+    kind: Kind,
 }
+
+impl Pending {
+    /// The share of the component that it matters most for.
+    fn size(&self) -> f64 {
+        self.share[0].max(self.share[1]).max(self.share[2])
+    }
+}
+
+/// The largest share comes first; of equal ones the earlier ray, so that the
+/// order, and with it the rounding of the sum, is always the same.
+impl Ord for Pending {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.size().total_cmp(&other.size()).then(other.number.cmp(&self.number))
+    }
+}
+
+impl PartialOrd for Pending {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Pending {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Pending {}
 
 /// A pixel while it is summed up.
 struct Sum<'a> {
     radiance: Rgb64,
-    /// Rays to follow. What they see is added up, so their order changes nothing
-    /// but the rounding, and it is always the same.
-    pending: Vec<Pending>,
-    /// How much may still be left out.
-    slack: f64,
+    /// Rays to follow.
+    pending: BinaryHeap<Pending>,
+    /// What their shares add up to.
+    left: f64,
+    /// How many rays there have been.
+    rays: u32,
     counts: &'a mut RayCounts,
     place: Place,
 }
@@ -67,9 +102,8 @@ impl WhittedTracer {
     pub(super) fn new(scene: &Scene, cutoff: f64) -> Self {
         let view = View::new(&scene.camera);
         let prepared = Prepared::new(scene);
-        let around_eye = view.eye().map_or_else(Media::default, |eye| {
-            Media::new(prepared.solids_at(&eye))
-        });
+        let around_eye =
+            view.eye().map_or_else(Media::default, |eye| Media::new(prepared.solids_at(&eye)));
         Self {
             view,
             lights: Lights::new(scene),
@@ -92,22 +126,37 @@ impl WhittedTracer {
 
     fn radiance(&self, x: u32, y: u32, counts: &mut RayCounts) -> Rgb64 {
         let (ray, media) = self.primary(x, y);
-        counts.primary += 1;
+        let first =
+            Pending { ray, share: [1.0; 3], media, depth: 0, number: 0, kind: Kind::Primary };
         let mut sum = Sum {
             radiance: [0.0; 3],
-            pending: vec![Pending { ray, share: [1.0; 3], media, depth: 0 }],
-            slack: self.cutoff,
+            pending: BinaryHeap::new(),
+            left: 0.0,
+            rays: 0,
             counts,
             place: (x, y),
         };
-        while let Some(next) = sum.pending.pop() {
+        self.follow(first, &mut sum);
+        // The largest shares first, and until all that are left together are small
+        // enough: no fewer rays could do. If none of those left would have seen
+        // anything brighter than display white, the pixel is off by the cutoff at
+        // most.
+        while sum.left > self.cutoff
+            && let Some(next) = sum.pending.pop()
+        {
+            sum.left -= next.size();
             self.follow(next, &mut sum);
         }
         sum.radiance
     }
 
     fn follow(&self, pending: Pending, sum: &mut Sum<'_>) {
-        let Pending { ray, share, media, depth } = pending;
+        let Pending { ray, share, media, depth, number, kind } = pending;
+        match kind {
+            Kind::Primary => sum.counts.primary += 1,
+            Kind::Reflected => sum.counts.reflected += 1,
+            Kind::Transmitted => sum.counts.transmitted += 1,
+        }
         let here = medium(media.top(&self.prepared), &self.prepared);
         let Some(hit) = self.prepared.nearest(&ray, f64::INFINITY) else {
             let share = times(share, transmittance(&here, f64::INFINITY));
@@ -116,30 +165,32 @@ impl WhittedTracer {
         let share = times(share, transmittance(&here, hit.t));
         if !self.prepared.surface(hit.item).is_transparent() {
             let point = self.prepared.expand(&ray, &hit);
-            return self.opaque(&ray, &point, Pending { ray, share, media, depth }, sum);
+            let at = Pending { ray, share, media, depth, number, kind };
+            return self.opaque(&point, at, sum);
         }
         let stop = Stop::at(&self.prepared, &ray, &hit);
+        let at = Pending { ray, share, media, depth, number, kind };
         match stop.opaque() {
-            Some(point) => self.opaque(&ray, point, Pending { ray, share, media, depth }, sum),
-            None => self.transparent(&stop, Pending { ray, share, media, depth }, sum),
+            Some(point) => self.opaque(point, at, sum),
+            None => self.transparent(&stop, at, sum),
         }
     }
 
     /// A surface that lets nothing through.
-    fn opaque(&self, ray: &Ray, point: &SurfacePoint<'_>, at: Pending, sum: &mut Sum<'_>) {
-        let seen = Seen::new(ray, point, &at.media);
+    fn opaque(&self, point: &SurfacePoint<'_>, at: Pending, sum: &mut Sum<'_>) {
+        let seen = Seen::new(&at.ray, point, &at.media);
         let gloss = point.surface.gloss.get();
         sum.add(at.share, point.surface.emission.get());
         self.matte(&seen, scaled(at.share, 1.0 - gloss), sum);
         if gloss > 0.0 {
-            let mirrored = point.leave(reflect(ray.direction, seen.shading, seen.facet));
+            let mirrored = point.leave(reflect(at.ray.direction, seen.shading, seen.facet));
             sum.push(mirrored, scaled(at.share, gloss), at.media, at.depth, Kind::Reflected);
         }
     }
 
     /// Surfaces that let light through, at one place.
     fn transparent(&self, stop: &Stop<'_>, at: Pending, sum: &mut Sum<'_>) {
-        let Pending { ray, mut share, media, depth } = at;
+        let Pending { ray, mut share, media, depth, .. } = at;
         let here = medium(media.top(&self.prepared), &self.prepared);
         let more = stop.thickness();
         let mirror = |seen: &Seen<'_>| {
@@ -149,7 +200,8 @@ impl WhittedTracer {
         for (point, cosine) in stop.sheets() {
             let seen = Seen::new(&ray, point, &media);
             let parts = Parts::new(point);
-            let mirrored = mirrored_by_sheet(cosine, here.ior.get(), point.surface.medium.ior.get());
+            let mirrored =
+                mirrored_by_sheet(cosine, here.ior.get(), point.surface.medium.ior.get());
             sum.add(share, point.surface.emission.get());
             self.matte(&seen, scaled(share, parts.matte), sum);
             let back = scaled(share, parts.gloss + parts.clear * mirrored);
@@ -235,6 +287,7 @@ impl<'a> Seen<'a> {
 /// What a ray comes from.
 #[derive(Clone, Copy)]
 enum Kind {
+    Primary,
     Reflected,
     Transmitted,
 }
@@ -249,26 +302,20 @@ impl Sum<'_> {
         }
     }
 
-    /// Keeps a ray to be followed, unless it matters too little.
-    ///
-    /// The shares of all rays of a pixel that are left out add up to the cutoff
-    /// at most. So if none of them would have seen anything brighter than
-    /// display white, the pixel is off by the cutoff at most.
+    /// Keeps a ray to be followed, unless it does not matter at all.
     fn push(&mut self, ray: Ray, share: Rgb64, media: Media, depth: u32, kind: Kind) {
-        let size = share[0].max(share[1]).max(share[2]);
-        if size <= self.slack * DROPPED_PART {
-            self.slack -= size;
+        self.rays += 1;
+        let pending = Pending { ray, share, media, depth: depth + 1, number: self.rays, kind };
+        let size = pending.size();
+        if size == 0.0 {
             return;
         }
-        if depth >= DEEPEST {
-            self.counts.troubles.depth.at(self.place);
+        if depth >= DEEPEST || self.rays > MOST_RAYS {
+            self.counts.troubles.given_up.at(self.place);
             return;
         }
-        match kind {
-            Kind::Reflected => self.counts.reflected += 1,
-            Kind::Transmitted => self.counts.transmitted += 1,
-        }
-        self.pending.push(Pending { ray, share, media, depth: depth + 1 });
+        self.left += size;
+        self.pending.push(pending);
     }
 }
 

@@ -68,7 +68,7 @@ pub(crate) fn floor(height: f64, surface: Surface) -> Result<Shape, InvalidField
 
 /// A horizontal slab that is wide enough for everything.
 pub(crate) fn slab(from: f64, to: f64, surface: Surface) -> Result<Shape, InvalidField> {
-    Shape::cuboid([-1000.0, -1000.0, from], [1000.0, 1000.0, to], surface)
+    Shape::cuboid([-10.0, -10.0, from], [10.0, 10.0, to], surface)
 }
 
 pub(crate) fn rendered(builder: SceneBuilder, cutoff: f64) -> Rendered {

@@ -119,7 +119,7 @@ fn perfect_mirrors_end_at_the_ceiling_which_is_counted() {
         .shape(floor(1.0, surface));
     let result = rendered(facing, Whitted::CUTOFF);
     let troubles = result.counts.troubles;
-    assert_eq!((troubles.depth.count, troubles.depth.first), (1, Some((0, 0))));
+    assert_eq!((troubles.given_up.count, troubles.given_up.first), (1, Some((0, 0))));
     assert_eq!(troubles.media.count + troubles.not_finite.count, 0);
     let found = f64::from(result.film.pixel(0, 0)[0]);
     // 10,000 surfaces after the first, each giving a thousandth.

@@ -101,8 +101,11 @@ fn a_mirror_shows_the_outside_of_what_nearly_touches_it() {
 fn an_eye_close_to_a_ball_sees_its_near_side() {
     for gap in [1e-1, 5e-5, 1e-9, 1e-12] {
         let from = -(1.0 + gap);
-        let near = scene(eye([from, 0.0, 0.0], [0.0; 3]), 0.0)
-            .shape(Shape::sphere([0.0; 3], 1.0, black()));
+        let near = scene(eye([from, 0.0, 0.0], [0.0; 3]), 0.0).shape(Shape::sphere(
+            [0.0; 3],
+            1.0,
+            black(),
+        ));
         let layers = picture(near, Whitted::CUTOFF).layers.expect("asked for");
         // Exact, by Sterbenz: 1 + gap has been rounded before.
         assert_near(f64::from(layers.pixel(0, 0).ray_depth), -from - 1.0, 1e-3, "first hit");

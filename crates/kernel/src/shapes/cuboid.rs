@@ -28,28 +28,62 @@ impl Slabs {
     }
 }
 
+impl Slabs {
+    /// The same, with quotients that are compared exactly where rounding makes
+    /// them equal.
+    #[cold]
+    fn exact_crossings(&self, ray: &Ray) -> Crossings {
+        let Some(mut inside) = Stretch::of(ray) else { return Crossings::NONE };
+        for (axis, part) in [(0, 0), (1, 2), (2, 4)] {
+            let (o, d) = (ray.origin[axis], ray.direction[axis]);
+            let (min, max) = (self.bounds.min[axis], self.bounds.max[axis]);
+            if d > 0.0 {
+                inside.enter(Cut::new(min - o, d, part));
+                inside.leave(Cut::new(max - o, d, part + 1));
+            } else if d < 0.0 {
+                inside.enter(Cut::new(max - o, d, part + 1));
+                inside.leave(Cut::new(min - o, d, part));
+            }
+        }
+        inside.ends()
+    }
+}
+
 impl Primitive for Slabs {
     #[inline]
     fn crossings(&self, ray: &Ray) -> Crossings {
-        let Some(mut inside) = Stretch::of(ray) else { return Crossings::NONE };
-        let mut part = 0;
+        let (mut enter, mut leave) = ([f64::NEG_INFINITY; 3], [f64::INFINITY; 3]);
         for axis in 0..3 {
             let (o, d) = (ray.origin[axis], ray.direction[axis]);
             let (min, max) = (self.bounds.min[axis], self.bounds.max[axis]);
             if d == 0.0 {
-                if !(min <= o && o <= max) {
+                if !(min..=max).contains(&o) {
                     return Crossings::NONE;
                 }
-            } else if d > 0.0 {
-                inside.enter(Cut::new(min - o, d, part));
-                inside.leave(Cut::new(max - o, d, part + 1));
             } else {
-                inside.enter(Cut::new(max - o, d, part + 1));
-                inside.leave(Cut::new(min - o, d, part));
+                let (near, far) = if d > 0.0 { (min, max) } else { (max, min) };
+                enter[axis] = (near - o) / d;
+                leave[axis] = (far - o) / d;
             }
-            part += 2;
         }
-        inside.ends()
+        let from = enter[0].max(enter[1]).max(enter[2]);
+        let to = leave[0].min(leave[1]).min(leave[2]);
+        if from == to {
+            return self.exact_crossings(ray);
+        }
+        let mut crossings = Crossings::NONE;
+        let sum = ray.origin.coords.sum() + ray.direction.sum();
+        let finite = from > f64::NEG_INFINITY && to < f64::INFINITY && !sum.is_nan();
+        if from < to && finite {
+            let face = |list: &[f64; 3], t: f64, entering: bool| {
+                let axis = if list[0] == t { 0 } else { 1 + usize::from(list[1] != t) };
+                let at_max = entering == (ray.direction[axis] < 0.0);
+                2 * axis as u32 + u32::from(at_max)
+            };
+            crossings.add(from, face(&enter, from, true));
+            crossings.add(to, face(&leave, to, false));
+        }
+        crossings
     }
 
     /// The coordinate across the face is exact, the others are kept within it:

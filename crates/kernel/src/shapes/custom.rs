@@ -68,3 +68,51 @@ impl Primitive for Own {
         f64::INFINITY
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{assert_sound, ray, ts};
+    use super::*;
+    use lancer_math::Vector;
+
+    /// The plane z = 1, seen from both sides.
+    #[derive(Debug)]
+    struct Pane;
+
+    impl CustomShape for Pane {
+        fn name(&self) -> &str {
+            "pane"
+        }
+
+        fn nearest(&self, ray: &Ray) -> Option<f64> {
+            assert!((ray.direction.norm() - 1.0).abs() < 1e-15);
+            Some((1.0 - ray.origin.z) / ray.direction.z).filter(|t| *t > 0.0)
+        }
+
+        fn normal(&self, _point: &Point) -> Vector {
+            Vector::z()
+        }
+
+        fn shows_second_colour(&self, point: &Point) -> bool {
+            point.x > 0.0
+        }
+    }
+
+    #[test]
+    fn directions_of_any_length_and_limits() {
+        let shape = Own::new(&(Arc::new(Pane) as Arc<dyn CustomShape>));
+        let checker = Checker::new(lancer_scene::Colour::RED);
+        for k in [1e-200, 0.1, 1.0, 3.0, 1e200] {
+            let up = ray([0.5, 0.0, -3.0], [0.0, 0.0, k]);
+            let crossing = shape.nearest(&up, f64::INFINITY).unwrap();
+            assert!((crossing.t * k - 4.0).abs() < 1e-14, "{k}");
+            assert!(shape.nearest(&up, 3.9 / k).is_none());
+            assert_eq!(ts(&shape, &up).len(), 1);
+            let contact = shape.contact(&up, &crossing);
+            assert_sound(&contact);
+            assert_eq!(shape.cell(&contact, 0, &checker), Cell::Second);
+        }
+        assert!(shape.nearest(&ray([0.0; 3], [0.0; 3]), f64::INFINITY).is_none());
+        assert!(shape.nearest(&ray([0.0; 3], [1.0, 0.0, 0.0]), f64::INFINITY).is_none());
+    }
+}

@@ -52,16 +52,17 @@ impl Ball {
 impl Primitive for Ball {
     #[inline]
     fn crossings(&self, ray: &Ray) -> Crossings {
-        let near = Near::new(ray, &self.centre);
-        // What is left along the ray after moving, by rounding.
+        let near = Near::around(ray, &self.centre, 0.5 * self.radius);
+        // What is left along the ray, all of it where the origin was not moved.
         let d2 = near.direction.norm_squared();
-        let along = near.origin.dot(&near.direction) / d2;
+        let inverse = 1.0 / d2;
+        let along = near.origin.dot(&near.direction) * inverse;
         let p = (near.origin - near.direction * along).norm();
         let under_root = (self.radius - p) * (self.radius + p);
         let mut crossings = Crossings::NONE;
         // Not for NaN either.
         if under_root >= 0.0 {
-            let half = (under_root / d2).sqrt();
+            let half = (under_root * inverse).sqrt();
             let middle = near.shift - along;
             let far = middle + half.copysign(middle);
             let close = if half > 0.5 * middle.abs() {

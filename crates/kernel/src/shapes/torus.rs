@@ -104,9 +104,10 @@ impl Ring {
 
     /// The root between a point outside and one inside.
     fn root(&self, line: &Line, mut outside: f64, mut inside: f64) -> f64 {
-        let fine = 0.25 * f64::EPSILON * (self.ring + self.tube);
-        let mut t = outside;
-        // Each second step halves the bracket if Newton's method does not.
+        // What rounding makes of a distance of 0.
+        let noise = 2.0 * f64::EPSILON * (self.ring + self.tube);
+        let (mut t, mut last) = (outside, f64::INFINITY);
+        // Each step halves the distance or the bracket.
         for _ in 0..200 {
             let (distance, slope) = self.distance(line, t);
             if distance < 0.0 {
@@ -114,14 +115,17 @@ impl Ring {
             } else {
                 outside = t;
             }
-            let (low, high) = (outside.min(inside), outside.max(inside));
             let newton = t - distance / slope;
             // Not for NaN either.
-            let next = if newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
-            if (next - t).abs() <= fine {
-                return next;
+            let within = newton >= outside.min(inside) && newton <= outside.max(inside);
+            if distance.abs() <= noise {
+                // A last step, unless the line touches here and the slope is noise.
+                let small = (newton - t).abs() <= 1e-10 * (self.ring + self.tube);
+                return if within && small { newton } else { t };
             }
-            t = next;
+            let fast = distance.abs() <= 0.5 * last;
+            t = if within && fast { newton } else { 0.5 * (outside + inside) };
+            last = distance.abs();
         }
         t
     }
@@ -426,6 +430,44 @@ mod tests {
                 ((off * off + z * z).sqrt() - Double::from(shape.tube)).0
             });
             assert!(worst <= 1.0 && count > 50_000, "{worst} of {count}");
+        }
+    }
+
+    /// Rays that touch the surface from outside or, at the inner equator, from
+    /// inside: all that is found is on the surface, also where slopes are 0.
+    #[test]
+    fn touching_rays_find_nothing_beside_the_surface() {
+        let mut rng = Rng::with_seed(13);
+        for shape in shapes() {
+            let Ring { centre, frame, ring, tube } = shape;
+            for case in 0..100_000 {
+                let (s, c) = lancer_math::sin_cos_degrees(360.0 * rng.f64());
+                let (v, u) = lancer_math::sin_cos_degrees(360.0 * rng.f64());
+                let outward = frame.first * c + frame.second * s;
+                let turned = frame.first * s - frame.second * c;
+                let normal = outward * u + frame.axis * v;
+                // Of the two directions in the surface, one may be left out; and there
+                // is one along which the surface of the inner side is flat.
+                let up = normal.cross(&turned);
+                let curved = (-u * tube / (ring + u * tube)).max(0.0).sqrt();
+                let way = match case % 4 {
+                    0 => turned,
+                    1 => up,
+                    2 => turned + up * curved,
+                    _ => turned * rng.f64() + up * rng.f64(),
+                };
+                let off = 1.0 + [0.0, 1e-15, -1e-15, -1e-9][rng.usize(0..4)];
+                let target = centre + outward * ring + normal * (tube * off);
+                let ray = Ray::new(target - way * (3.0 * ring * rng.f64()), way);
+                let size = centre.coords.amax() + 10.0 * ring;
+                let found = ts(&shape, &ray);
+                assert!(found.len().is_multiple_of(2), "case {case}: {found:?}");
+                for t in found {
+                    let at = frame.local(&(ray.at(t) - centre));
+                    let off = libm::hypot(libm::hypot(at.x, at.y) - ring, at.z) - tube;
+                    assert!(off.abs() <= 1e-14 * size, "case {case}: {off:e} {t} {ray:?}");
+                }
+            }
         }
     }
 

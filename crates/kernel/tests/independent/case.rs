@@ -57,7 +57,7 @@ impl Case {
         let camera = Camera::new([0.0; 3], [0.0, 1.0, 0.0], 1.0, [4, 3]);
         let mut builder = Scene::builder().camera(camera);
         let mut placements = Vec::new();
-        if number % 2 == 0 {
+        if number.is_multiple_of(2) {
             builder = shapes.into_iter().fold(builder, |builder, s| builder.shape(Ok(s)));
             placements.push(Placement::IDENTITY);
         } else {
@@ -116,7 +116,8 @@ impl Case {
             let reach = sample.centre.coords.norm() + sample.size;
             frame.growth * (origin.round().norm() + reach)
         };
-        Line { origin, direction, length: direction.round().norm(), scale, size }
+        let (length, growth) = (direction.round().norm(), frame.growth);
+        Line { origin, direction, length, scale, growth, size }
     }
 
     /// All crossings of a ray's line, nearest first.

@@ -120,7 +120,7 @@ impl Figure for Facets {
             let slack = group.iter().map(|c| c.crossing.slack).sum::<f64>();
             let is_sure = net != 0 && !is_grazing && !group.iter().any(|c| c.at_rim);
             let needed = |c: &&mut Candidate| c.crossing.is_there && c.is_outward == (net > 0);
-            if let Some(last) = group.iter_mut().filter(needed).next_back()
+            if let Some(last) = group.iter_mut().rfind(needed)
                 && is_sure
             {
                 last.crossing.margin = f64::INFINITY;

@@ -31,7 +31,11 @@ const ROUNDING: f64 = f64::EPSILON / 2.0;
 impl Entry {
     /// The lengths by which roundings count at the crossing.
     fn reach(&self) -> f64 {
-        self.line.scale + self.crossing.t.round().abs() * self.line.length
+        self.reach_at(self.crossing.t.round())
+    }
+
+    fn reach_at(&self, t: f64) -> f64 {
+        self.line.scale + self.line.growth * t.abs() * self.line.length
     }
 
     fn is_sure(&self) -> bool {
@@ -83,7 +87,7 @@ impl Entry {
             return true;
         }
         let (figure, place) = (&case.subject(self.item).figure, self.line.at(Dd::from(t)));
-        let near = 4.0 * BAND * (self.line.scale + t.abs() * self.line.length);
+        let near = 4.0 * BAND * self.reach_at(t);
         self.crossing.margin < BAND
             && figure.side(self.crossing.part, place).round().abs() <= near
             && figure.off(place) <= near
@@ -210,7 +214,7 @@ fn all(case: &Case, asked: &Asked, entries: &[Entry], hit: Option<Hit>, tally: &
 }
 
 /// The point of a hit and the normal there. Near an edge it may be that of either
-/// surface; returned is the one that it is.
+/// surface; returned is the one that it is, if it has a normal.
 fn contact(
     case: &Case,
     ray: &Ray,
@@ -226,6 +230,10 @@ fn contact(
     for part in found.iter().map(|e| e.crossing.part).chain(near) {
         let (side, normal) = e.side(case, part, surface.point);
         let length = normal.norm();
+        if length == 0.0 && side.abs() <= surface.error {
+            // Where a ring has closed its hole, all normals meet.
+            return None;
+        }
         let unit = normal / length;
         // In a box of that half side around the point there is one of the surface.
         let bound = surface.error * unit.lp_norm(1);
@@ -268,7 +276,10 @@ fn leave(
     let goes_out = direction.dot(&surface.normal) >= 0.0;
     // In the tip of a cone there is no room for that.
     let is_tip = (normal / normal.norm() - surface.normal).norm() > 0.1;
-    if !is_tip && (side == 0.0 || goes_out != (side > 0.0)) {
+    if is_tip {
+        return;
+    }
+    if side == 0.0 || goes_out != (side > 0.0) {
         let what = format!("leaving {hit:?} along {direction:?} starts {side:e} off the surface");
         tally.complain(case, ray, what);
     }

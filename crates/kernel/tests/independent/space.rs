@@ -142,6 +142,8 @@ pub(crate) struct Line {
     /// The size of what the ray's numbers are held against: the lengths by
     /// which their roundings count.
     pub(crate) scale: f64,
+    /// How many times that the roundings of its direction count.
+    pub(crate) growth: f64,
     /// How far its origin is from the middle of the shape, and the size of that.
     pub(crate) size: f64,
 }

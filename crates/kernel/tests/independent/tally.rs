@@ -139,6 +139,7 @@ impl Tally {
         println!("{self}");
         let told = self.told.join("\n\n");
         assert_eq!(self.failures, 0, "of {} rays failed\n\n{told}\n", self.rays + self.leaving);
+        assert!(self.error < 1e-11, "points are told to be off by {:e} of the scene", self.error);
         let share = self.easy_in_band as f64 / self.easy as f64;
         assert!(share < 1e-3, "{share} of the easy rays may be answered in two ways");
     }

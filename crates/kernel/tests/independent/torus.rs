@@ -17,7 +17,7 @@ pub(crate) struct Ring {
 
 impl Ring {
     /// From the nearest point of the circle within the tube to the point.
-    fn from_circle(&self, point: Long) -> Long {
+    fn beyond_circle(&self, point: Long) -> Long {
         let from = point - self.centre;
         let outward = from - self.axis.times(from.dot(self.axis));
         from - outward.unit().times(self.ring)
@@ -86,7 +86,7 @@ impl Figure for Ring {
     }
 
     fn normal(&self, _: usize, point: Long) -> Long {
-        self.from_circle(point).unit()
+        self.beyond_circle(point).unit()
     }
 
     fn is_closed(&self) -> bool {

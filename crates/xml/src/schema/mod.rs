@@ -32,6 +32,8 @@ pub struct Element {
     pub one_of: &'static [&'static [&'static str]],
     /// What the numbers of its `chess-size` are, where it has that.
     pub cells: Option<Cells>,
+    /// How its checker lies on it, where it has one.
+    pub checker: &'static str,
     /// What elements it may hold, apart from transforms.
     pub children: &'static [Child],
     /// The transforms, where it is moved by them.
@@ -50,6 +52,7 @@ impl Element {
         surface: &[],
         one_of: &[],
         cells: None,
+        checker: "",
         children: &[],
         transforms: &[],
         slips: &[],
@@ -249,6 +252,7 @@ mod tests {
             let has = |name: &str| element.all_attributes().any(|a| a.name == name);
             assert_eq!(element.cells.is_some(), has("chess-size"), "{}", element.name);
             assert_eq!(element.cells.is_some(), has("material"), "{}", element.name);
+            assert_eq!(element.cells.is_some(), !element.checker.is_empty(), "{}", element.name);
             for attribute in element.all_attributes() {
                 let named = element.one_of.iter().flat_map(|set| set.iter());
                 let count = named.filter(|name| **name == attribute.name).count();

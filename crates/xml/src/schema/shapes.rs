@@ -66,6 +66,7 @@ pub static SPHERE: Element = Element {
     ],
     surface: SURFACE,
     cells: Some(Cells::Angle),
+    checker: "latitude from its equator and longitude from the x axis, towards y",
     children: &[once(&POINT, "the centre")],
     slips: RADIUS,
     ..Element::BARE
@@ -80,6 +81,7 @@ pub static PLANE: Element = Element {
     attributes: &[LENGTH, MATERIAL_OF_SHAPE],
     surface: SURFACE,
     cells: Some(Cells::Length),
+    checker: "squares along both axes across its normal, from `origin`",
     children: &[once(&ORIGIN, "a point of the plane"), once(&NORMAL, "which way it faces")],
     ..Element::BARE
 };
@@ -95,6 +97,7 @@ pub static DISC: Element = Element {
     ],
     surface: SURFACE,
     cells: Some(Cells::Length),
+    checker: "squares along both axes across its normal, from its centre",
     children: &[once(&POINT, "the centre"), once(&NORMAL, "which way it faces")],
     slips: RADIUS,
     ..Element::BARE
@@ -108,6 +111,7 @@ pub static RECTANGLE: Element = Element {
     attributes: &[LENGTH, MATERIAL_OF_SHAPE],
     surface: SURFACE,
     cells: Some(Cells::Length),
+    checker: "squares along <across>, and perpendicular to it in the plane, from the corner",
     children: &[
         once(&POINT, "a corner"),
         once(&ACROSS, "the side from that corner to the next"),
@@ -127,6 +131,8 @@ pub static TRIANGLE: Element = Element {
     attributes: &[LENGTH, MATERIAL_OF_SHAPE],
     surface: SURFACE,
     cells: Some(Cells::Length),
+    checker: "squares along the side from <a> to <b>, and perpendicular to it in the plane, \
+              from <a>",
     children: &[once(&A, "the first corner"), once(&B, "the second"), once(&C, "the third")],
     ..Element::BARE
 };
@@ -138,6 +144,8 @@ pub static BOX: Element = Element {
     attributes: &[LENGTH, MATERIAL_OF_SHAPE],
     surface: SURFACE,
     cells: Some(Cells::Length),
+    checker: "squares on each face along the axes, from the corner with the smallest \
+              coordinates",
     children: &[
         once(&FROM, "a corner"),
         once(&TO, "the opposite corner; different in all three coordinates"),
@@ -160,6 +168,8 @@ pub static CUBE: Element = Element {
     ],
     surface: SURFACE,
     cells: Some(Cells::Length),
+    checker: "squares on each face along the axes, from the corner with the smallest \
+              coordinates",
     children: &[once(&POINT, "its middle")],
     ..Element::BARE
 };
@@ -171,6 +181,7 @@ pub static TETRAHEDRON: Element = Element {
     attributes: &[LENGTH, MATERIAL_OF_SHAPE],
     surface: SURFACE,
     cells: Some(Cells::Length),
+    checker: "squares on each face from one of its corners, along a side there",
     children: &[
         once(&A, "the first corner"),
         once(&B, "the second"),
@@ -192,6 +203,8 @@ pub static CYLINDER: Element = Element {
     ],
     surface: SURFACE,
     cells: Some(Cells::LengthAndAngle),
+    checker: "the length along its axis from <base>, and the angle around it; on lids the \
+              length outward from the middle, and the same angle",
     children: &[
         once(&BASE, "the middle of one end"),
         once(&TOP, "the middle of the other end; not the same point"),
@@ -212,6 +225,7 @@ pub static CONE: Element = Element {
     ],
     surface: SURFACE,
     cells: Some(Cells::LengthAndAngle),
+    checker: "as on a cylinder",
     children: &[once(&BASE, "the middle of its base"), once(&TOP, "its apex; not the same point")],
     slips: RADIUS,
     ..Element::BARE
@@ -234,6 +248,7 @@ pub static FRUSTUM: Element = Element {
     ],
     surface: SURFACE,
     cells: Some(Cells::LengthAndAngle),
+    checker: "as on a cylinder",
     children: &[
         once(&BASE, "the middle of its base"),
         once(&TOP, "the middle of the other end; not the same point"),
@@ -254,6 +269,7 @@ pub static TORUS: Element = Element {
     ],
     surface: SURFACE,
     cells: Some(Cells::Angle),
+    checker: "the angle around its axis, and around the tube from the outermost circle upward",
     children: &[once(&POINT, "the centre"), once(&AXIS, "the axis that the ring lies around")],
     slips: RADIUS,
     ..Element::BARE
@@ -289,6 +305,8 @@ pub static MESH: Element = Element {
     ],
     surface: SURFACE,
     cells: Some(Cells::Length),
+    checker: "squares along the two coordinate axes that the normal of a triangle points along \
+              least, from the origin of the file",
     slips: &[
         ("size", Slip::Instead("put it in a <group> with a <scale>")),
         ("point", Slip::Instead("put it in a <group> with a <translate>")),

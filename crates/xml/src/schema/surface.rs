@@ -94,7 +94,8 @@ pub static SURFACE: &[Attribute] = &[
         "thin",
         "`true` or `false`",
         "whether a clear surface is a sheet: two faces so near that light passes unbent, with \
-         nothing between them. `false` where it is missing",
+         nothing between them. `false` where it is missing; but clear shapes with no inside, flat \
+         ones and open ones, should be thin",
     ),
     optional(
         "emission",
@@ -106,7 +107,7 @@ pub static SURFACE: &[Attribute] = &[
         "priority",
         "whole number",
         "where transparent solids overlap, what is there is that of the one with the highest \
-         priority. 0 where it is missing",
+         priority; of equal ones, the one that is smaller by volume. 0 where it is missing",
     ),
 ];
 

@@ -213,17 +213,10 @@ pub(super) fn surface<'a>(
         material.used = true;
         material.clear |= look.is_clear() || look.broken;
     }
-    if look.broken {
-        if !own.broken || reader.has("color") || reader.has("material") {
-            return None;
-        }
-        // What is wrong may be what would make a colour needless.
-        let says_matte = |name| !reader.has(name);
-        if !(says_matte("gloss") && says_matte("transparency")) {
-            return None;
-        }
-    }
-    if look.colour.is_none() && look.has_matte_part() {
+    // What is wrong may be the colour, or what would make one needless.
+    let excused = ["color", "material", "gloss", "transparency"];
+    let excused = look.broken && excused.iter().any(|name| reader.has(name));
+    if look.colour.is_none() && look.has_matte_part() && !excused {
         reader.demand(&schema::SURFACE[0], out);
         return None;
     }
