@@ -210,7 +210,7 @@ fn crops_are_cut_from_the_same_picture() {
         lancer_film::Window { x: 159, y: 119, width: 1, height: 1 },
     ] {
         let settings =
-            RenderSettings { window: Some(window), frame_peak: true, ..RenderSettings::default() };
+            RenderSettings { window: Some(window), for_display: true, ..RenderSettings::default() };
         let crop = rendered(&scene, &Classic, &settings).film;
         assert_eq!(crop.frame_peak(), whole.frame_peak());
         for y in window.y..window.y + window.height {

@@ -103,11 +103,13 @@ impl<'a> Stop<'a> {
     /// The surface that is seen is that of the solid that outranks the others,
     /// of those whose medium is on either side.
     pub(super) fn border(&self, prepared: &Prepared, media: &mut Media) -> Option<Border<'_, 'a>> {
-        let solids = || self.hits.iter().filter(|touch| touch.point.surface.has_medium());
-        solids().next()?;
+        let solids = self.crossed();
+        if solids.is_empty() {
+            return None;
+        }
         let mut makes_sense = true;
         let mut inside = media.clone();
-        for touch in solids() {
+        for touch in &solids {
             let item = touch.point.item;
             // One that is entered and left here is in neither before nor after.
             if inside.has(item) == touch.entering && media.has(item) == touch.entering {
@@ -123,11 +125,26 @@ impl<'a> Stop<'a> {
         let is_seen = |touch: &&Touch<'a>| {
             before != after && [before, after].contains(&Some(touch.point.item))
         };
-        let surface = solids()
+        let surface = solids
+            .into_iter()
             .filter(is_seen)
             .max_by(|a, b| prepared.rank(a.point.item, b.point.item))
             .map(|touch| (&touch.point, touch.cosine));
         Some(Border { before, after, surface, makes_sense })
+    }
+
+    /// The borders of media that are crossed: not those of a solid that is entered
+    /// twice here, or left twice, since the ray only touches it.
+    fn crossed(&self) -> Vec<&Touch<'a>> {
+        let mut crossed: Vec<&Touch<'a>> = Vec::new();
+        for touch in self.hits.iter().filter(|touch| touch.point.surface.has_medium()) {
+            let same = |other: &&Touch<'a>| other.point.item == touch.point.item;
+            match crossed.iter().rposition(same) {
+                Some(at) if crossed[at].entering == touch.entering => drop(crossed.remove(at)),
+                _ => crossed.push(touch),
+            }
+        }
+        crossed
     }
 
     /// How far apart, across the surface, the points of the surfaces are, with

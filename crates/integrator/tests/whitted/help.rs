@@ -1,6 +1,6 @@
 //! What the tests of this folder share.
 
-use lancer_integrator::{RenderSettings, Rendered, Troubles, Whitted, render};
+use lancer_integrator::{Engine, RayCounts, RenderSettings, Rendered, Troubles, Whitted, render};
 use lancer_math::{Point, Ray, Vector};
 use lancer_scene::{
     Camera, Colour, CustomShape, InvalidField, Scene, SceneBuilder, Shape, Spectrum, Surface,
@@ -163,11 +163,17 @@ impl CustomShape for Witness {
     }
 }
 
-/// All rays that are followed for a picture, the eye's own included.
+/// All rays that are followed for the only pixel of a picture, the eye's own
+/// first.
 pub(crate) fn rays(builder: SceneBuilder) -> Vec<Ray> {
     let witness = Witness::default();
-    let _ = rendered(builder.shape(Shape::custom(witness.clone(), black())), Whitted::CUTOFF);
-    witness.rays.lock().expect("no thread has failed").clone()
+    let builder = builder.shape(Shape::custom(witness.clone(), black()));
+    let scene = builder.build().expect("valid");
+    let _ = Whitted::new().prepare(&scene).pixel(0, 0, &mut RayCounts::default());
+    let mut rays = witness.rays.lock().expect("no thread has failed").clone();
+    // It is asked again where surfaces are crossed.
+    rays.dedup();
+    rays
 }
 
 /// Where a ray's line is at that height.

@@ -97,7 +97,10 @@ fn clear_things_vanish_in_a_white_furnace() {
     ];
     for (name, furnace) in scenes {
         let furnace_off = |cutoff: f64| {
-            let film = picture(furnace.clone(), cutoff).film;
+            let t0 = std::time::Instant::now();
+            let r = rendered(furnace.clone(), cutoff);
+            eprintln!("{name} {:?} {:?}", r.counts, t0.elapsed());
+            let film = r.film;
             let values = film.pixels().iter().flatten();
             values.map(|v| (f64::from(*v) - 0.5).abs()).fold(0.0, f64::max)
         };
