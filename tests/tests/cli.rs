@@ -172,14 +172,17 @@ fn statistics_add_up() {
         .silent();
     let stats: serde_json::Value =
         serde_json::from_slice(&bytes(&folder.path("s.json"))).expect("it is JSON");
-    assert_eq!(stats["engine"], "classic");
+    assert_eq!(stats["engine"], "whitted");
+    assert!(stats["exposure"].as_f64().is_some_and(|stops| (stops * 64.0).fract() == 0.0));
+    assert_eq!((&stats["cutoff"], &stats["troubles"]["media"]["count"]), (&1e-4.into(), &0.into()));
     assert_eq!((&stats["width"], &stats["height"]), (&40.into(), &30.into()));
     assert_eq!(stats["threads"], 2);
     assert_eq!(stats["version"], env!("CARGO_PKG_VERSION"));
     let rays = |kind: &str| stats["rays"][kind].as_u64().expect("a count");
     assert_eq!(rays("primary"), 1200);
     assert!(rays("reflected") > 0 && rays("shadow") > 0);
-    assert_eq!(rays("total"), rays("primary") + rays("reflected") + rays("shadow"));
+    let parts = ["primary", "reflected", "transmitted", "shadow"].map(rays);
+    assert_eq!(rays("total"), parts.iter().sum::<u64>());
     let seconds = |stage: &str| stats["seconds"][stage].as_f64().expect("a time");
     let stages = ["read", "parse", "render", "encode", "write"].map(seconds);
     assert!(stages.iter().all(|s| *s >= 0.0) && stages.iter().sum::<f64>() <= seconds("total"));
@@ -205,6 +208,22 @@ fn wrong_usage_is_code_2_and_writes_nothing() {
         (&["render", "scene.xml", "-o", "scene.xml", "--format", "png"], "overwrite the scene"),
         (&["render", "scene.xml", "-o", "a.png", "--stats", "scene.xml"], "overwrite the scene"),
         (&["render", "scene.xml", "--preview"], "needs a terminal"),
+        (&["render", "scene.xml", "-o", "a.png", "--exposure", "bright"], "number of stops"),
+        (&["render", "scene.xml", "-o", "a.png", "--cutoff", "-1"], "from 0 to 1"),
+        (&["render", "scene.xml", "-o", "a.png", "--layers", "depth"], "write an EXR"),
+        (&["render", "scene.xml", "-o", "a.exr", "--layers", "colour"], "is none of depth"),
+        (
+            &["render", "scene.xml", "-o", "a.png", "--engine", "classic", "--exposure", "1"],
+            "means nothing",
+        ),
+        (
+            &["render", "scene.xml", "-o", "a.png", "--engine", "direct", "--cutoff", "0"],
+            "means nothing",
+        ),
+        (
+            &["render", "scene.xml", "-o", "a.exr", "--engine", "classic", "--layers", "all"],
+            "means nothing",
+        ),
         (&["compare", "a.png"], "Usage"),
         (&["compare", "a.png", "b.png", "--max-diff", "-1"], "max-diff"),
         (&["check"], "Usage"),
@@ -269,10 +288,12 @@ fn warnings_do_not_stop_a_render_and_quiet_hides_them() {
     let folder = Folder::new();
     let down = SCENE.replace("x=\"4\" y=\"5\" z=\"2\"", "x=\"1\" y=\"0\" z=\"0\"");
     fs::write(folder.path("down.xml"), down).expect("written");
-    let run = folder.run(&["render", "down.xml", "-o", "a.png"]);
+    let down = ["render", "down.xml", "-o", "a.png", "--engine", "classic"];
+    let run = folder.run(&down);
     assert_eq!(run.code(), Some(0));
     assert!(run.err().starts_with("warning: down.xml: the camera looks straight"), "{}", run.err());
-    folder.run(&["render", "down.xml", "-o", "a.png", "--quiet"]).silent();
+    folder.run(&[&down[..], &["--quiet"]].concat()).silent();
+    folder.run(&["render", "down.xml", "-o", "a.png"]).silent();
     let empty = scenes().join("invalid/empty_shapes.xml");
     let empty = empty.to_str().expect("it is UTF-8");
     assert!(folder.run(&["render", empty, "-o", "a.png"]).err().contains("<shapes> is empty"));
@@ -468,4 +489,79 @@ mod unix {
         assert!(!err.contains("panicked"), "{err}");
         assert!(err.contains("cannot write to standard output"), "{err}");
     }
+}
+
+#[test]
+fn the_exposure_that_was_found_can_be_given_back() {
+    let folder = Folder::new();
+    folder.run(&["render", "scene.xml", "-o", "a.png", "--stats", "s.json"]).silent();
+    let stats: serde_json::Value =
+        serde_json::from_slice(&bytes(&folder.path("s.json"))).expect("it is JSON");
+    let stops = stats["exposure"].to_string();
+    folder.run(&["render", "scene.xml", "-o", "b.png", "--exposure", &stops]).silent();
+    assert!(bytes(&folder.path("a.png")) == bytes(&folder.path("b.png")));
+    // A crop is as bright as the whole, and knows the same number.
+    let crop = ["render", "scene.xml", "-o", "c.png", "--crop", "3,4,5,6", "--stats", "s.json"];
+    folder.run(&crop).silent();
+    let stats: serde_json::Value =
+        serde_json::from_slice(&bytes(&folder.path("s.json"))).expect("it is JSON");
+    assert_eq!(stats["exposure"].to_string(), stops);
+    folder.run(&["render", "scene.xml", "-o", "d.png", "--exposure", "-30"]).silent();
+    assert!(bytes(&folder.path("a.png")) != bytes(&folder.path("d.png")));
+}
+
+#[test]
+fn layers_are_channels_of_the_picture() {
+    let folder = Folder::new();
+    folder.run(&["render", "scene.xml", "-o", "a.exr", "--layers", "all"]).silent();
+    folder.run(&["render", "scene.xml", "-o", "b.exr"]).silent();
+    let (layered, plain) = (bytes(&folder.path("a.exr")), bytes(&folder.path("b.exr")));
+    for channel in ["depth.axis", "depth.ray", "normal.X", "albedo.B", "shape.id", "instance.id"] {
+        let name: Vec<u8> = channel.bytes().chain([0]).collect();
+        assert!(layered.windows(name.len()).any(|part| part == name), "{channel}");
+        assert!(!plain.windows(name.len()).any(|part| part == name), "{channel}");
+    }
+    assert_eq!(folder.run(&["compare", "a.exr", "b.exr"]).code(), Some(0), "the same colours");
+}
+
+#[test]
+fn scenes_find_their_meshes_and_old_engines_refuse_new_scenes() {
+    let folder = Folder::new();
+    fs::create_dir(folder.path("inner")).expect("made");
+    let triangle = "v 0 0 0\nv 4 0 0\nv 0 0 4\nf 1 2 3\n";
+    fs::write(folder.path("inner/mesh.obj"), triangle).expect("written");
+    let scene = SCENE.replace("<shapes>", "<shapes><mesh color=\"red\" file=\"mesh.obj\"/>");
+    fs::write(folder.path("inner/scene.xml"), &scene).expect("written");
+    folder.run(&["render", "inner/scene.xml", "-o", "a.png"]).silent();
+    fs::write(folder.path("lost.xml"), &scene).expect("written");
+    folder.run(&["render", "lost.xml", "-o", "a.png"]).fails(1, "mesh.obj");
+    fs::write(folder.path("inner/mesh.obj"), triangle.replace("f 1 2 3", "f 1 2 x"))
+        .expect("written");
+    let run = folder.run(&["check", "inner/scene.xml"]);
+    assert!(run.err().contains("line 4, column 7"), "{}", run.err());
+    fs::write(folder.path("inner/mesh.obj"), triangle).expect("written");
+    let classic = ["render", "inner/scene.xml", "-o", "b.png", "--engine", "classic"];
+    folder.run(&classic).fails(1, "shape 1 is a mesh");
+    assert!(!folder.path("b.png").exists());
+    let run = folder.run(&["check", "inner/scene.xml", "--engine", "classic"]);
+    assert!(run.code() == Some(1) && run.err().contains("shape 1 is a mesh"), "{}", run.err());
+}
+
+/// A tube of glass without lids lets rays into a medium that they never leave:
+/// a warning before, and one afterwards that counts.
+#[test]
+fn media_that_make_no_sense_are_told() {
+    let folder = Folder::new();
+    let tube = "<cylinder transparency=\"1\" ior=\"1.5\" size=\"1\" open=\"true\">\
+                <base x=\"5\" y=\"6\" z=\"0\"/><top x=\"5\" y=\"6\" z=\"2\"/></cylinder>";
+    let scene = SCENE.replace("<shapes>", &format!("<shapes>{tube}"));
+    fs::write(folder.path("tube.xml"), scene).expect("written");
+    let run = folder.run(&["render", "tube.xml", "-o", "a.png"]);
+    assert_eq!(run.code(), Some(0));
+    assert!(run.err().contains("not closed"), "{}", run.err());
+    assert!(
+        run.err().contains("left a medium") && run.err().contains("first in pixel"),
+        "{}",
+        run.err()
+    );
 }

@@ -19,8 +19,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
             }
         };
         let parsed = lancer_xml::parse_with(&bytes, &options, &files::BesideScene(path));
-        let tally = report::show(&name, &parsed, false);
-        failed |= tally.errors > 0;
+        let mut tally = report::show(&name, &parsed, false);
         if let Some(scene) = &parsed.scene {
             let engine = args.engine.engine();
             for refusal in engine.refusals(scene) {
@@ -28,18 +27,19 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
                     "error: {name}: the engine {} cannot show this scene: {refusal}",
                     engine.name()
                 ));
-                failed = true;
+                tally.errors += 1;
             }
             for warning in engine.warnings(scene) {
+                tally.warnings += 1;
                 report::say(format_args!("warning: {name}: {warning}"));
             }
         }
+        failed |= tally.errors > 0;
         if args.quiet {
             continue;
         }
         match &parsed.scene {
-            None => report::say(format_args!("{name}: {tally}")),
-            Some(scene) => {
+            Some(scene) if tally.errors == 0 => {
                 let and =
                     if tally == Tally::default() { String::new() } else { format!("; {tally}") };
                 print_line(&format!(
@@ -50,6 +50,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
                     count(scene.shape_count() as usize, "shape"),
                 ))?;
             }
+            _ => report::say(format_args!("{name}: {tally}")),
         }
     }
     if failed { Err(Failure::Told) } else { Ok(()) }

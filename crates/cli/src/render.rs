@@ -76,8 +76,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         rays: rendered.counts.into(),
         frame_peak: rendered.film.frame_peak(),
         exposure: rendered.film.stops(),
-        cutoff: (engine.name() == WHITTED)
-            .then(|| args.cutoff.unwrap_or_default().cutoff()),
+        cutoff: (engine.name() == WHITTED).then(|| args.cutoff.unwrap_or_default().cutoff()),
         troubles: rendered.counts.troubles.into(),
         seconds,
     };
@@ -242,7 +241,7 @@ fn tell_troubles(name: &str, rendered: &Rendered) {
         if let Some((x, y)) = trouble.first {
             let count = trouble.count;
             report::say(format_args!(
-                "warning: {name}: {what} ({count} times, first at pixel {x},{y}): {remedy}"
+                "warning: {name}: {what} ({count} times, first in pixel {x},{y}): {remedy}"
             ));
         }
     };
@@ -256,9 +255,9 @@ fn tell_troubles(name: &str, rendered: &Rendered) {
     tell(
         &troubles.given_up,
         &format!(
-            "rays still mattered after {deepest} surfaces, or {most} rays in a pixel, and were given up"
+            "in some pixels rays still mattered after {deepest} surfaces, or {most} rays, and were given up"
         ),
-        "give mirrors a gloss below 1, or raise --cutoff",
+        "raise --cutoff, or let mirrors and media take away more",
     );
     tell(
         &troubles.not_finite,

@@ -40,8 +40,8 @@ pub struct Troubles {
     /// Rays that left a medium in which they were not, or entered one in which
     /// they were: the transparent shapes do not enclose what they should.
     pub media: Trouble,
-    /// Rays that were not followed any more, though they mattered, because so
-    /// many surfaces, or rays of the pixel, came before.
+    /// Pixels with rays that were not followed any more, though together they
+    /// mattered, because so many surfaces, or rays of the pixel, came before.
     pub given_up: Trouble,
     /// Pixels whose colour was not a finite number; they are black.
     pub not_finite: Trouble,

@@ -30,6 +30,7 @@ pub struct Prepared {
     /// Items that can be filled with a medium.
     solids: Vec<u32>,
     has_transparent: bool,
+    coarsest: f64,
 }
 
 /// A shape and what it looks like.
@@ -111,6 +112,14 @@ impl Prepared {
         self.has_transparent
     }
 
+    /// The error of the points of the item whose points are least certain, but
+    /// for what a point far from it adds where it has no end: from the sizes of
+    /// coordinates, in its own space and in the world.
+    #[must_use]
+    pub const fn coarsest(&self) -> f64 {
+        self.coarsest
+    }
+
     /// The nearest hit with 0 < t < `t_max`.
     #[must_use]
     pub fn nearest(&self, ray: &Ray, t_max: f64) -> Option<Hit> {
@@ -167,7 +176,9 @@ impl Prepared {
             }
         };
         self.unbounded.iter().for_each(|&item| collect(item));
-        self.hierarchy.visit(ray, from, to, |i, to| {
+        // From the beginning of the ray: the box of a flat shape may end before
+        // its hit does, by rounding.
+        self.hierarchy.visit(ray, from.min(0.0), to, |i, to| {
             collect(self.bounded[i]);
             to
         });
@@ -238,10 +249,13 @@ impl Prepared {
         let volume = |item: u32| {
             let Item { shape, placement } = self.items[item as usize];
             let placement = &self.placements[placement as usize];
-            self.shapes[shape as usize].primitive.volume() * placement.volume_factor()
+            let volume = self.shapes[shape as usize].primitive.volume() * placement.volume_factor();
+            // To 28 bits, rounded: a turn changes the last ones. Bits of positive
+            // numbers are ordered as the numbers are.
+            (volume.to_bits() + (1 << 23)) >> 24
         };
         let (one, other) = (self.surface(a).priority, self.surface(b).priority);
-        one.cmp(&other).then_with(|| volume(b).total_cmp(&volume(a))).then(a.cmp(&b))
+        one.cmp(&other).then_with(|| volume(b).cmp(&volume(a))).then(a.cmp(&b))
     }
 
     /// The ray in the space of the item's shape.
@@ -281,8 +295,11 @@ impl Builder {
 
     fn groups(&mut self, groups: &[Placed], outer: &Placement) {
         for placed in groups {
+            if placed.group.shape_count() == 0 {
+                continue;
+            }
             let placement = placed.placement.then(outer);
-            let number = if placement.is_identity() {
+            let number = if placement.is_identity() || placed.group.shapes().is_empty() {
                 0
             } else {
                 self.placements.push(placement);
@@ -304,8 +321,16 @@ impl Builder {
         let Self { shapes, placements, items, .. } = self;
         let (mut bounded, mut boxes) = (Vec::new(), Vec::new());
         let (mut unbounded, mut solids) = (Vec::new(), Vec::new());
+        let mut coarsest = 0.0_f64;
         for (i, item) in (0..).zip(&items) {
             let ready = &shapes[item.shape as usize];
+            let reach = ready.primitive.bounds().filter(is_finite).map(|bounds| {
+                let far = Point::from(bounds.min.coords.abs().sup(&bounds.max.coords.abs()));
+                let error = 64.0 * f64::EPSILON * bounds.reach();
+                let placement = &placements[item.placement as usize];
+                placement.error_of(&far, &placement.point(&far), error)
+            });
+            coarsest = reach.map_or(coarsest, |reach| coarsest.max(reach));
             let bounds = ready.primitive.bounds().map(|bounds| match item.placement {
                 0 => bounds,
                 placement => placements[placement as usize].bounds(&bounds),
@@ -332,6 +357,7 @@ impl Builder {
             unbounded,
             solids,
             has_transparent,
+            coarsest,
         }
     }
 }

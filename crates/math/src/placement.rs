@@ -77,7 +77,9 @@ impl Placement {
         }
         let shape = matrix / size;
         let inverse = shape.try_inverse()? / size;
-        let flat = shape.determinant().abs() < 1e-12;
+        let columns = [0, 1, 2].map(|i| unit(shape.column(i).into_owned()));
+        let [x, y, z] = [columns[0]?, columns[1]?, columns[2]?];
+        let flat = x.dot(&y.cross(&z)).abs() < 1e-12;
         (!flat && inverse.iter().all(|c| c.is_finite())).then_some(Self { matrix, inverse, offset })
     }
 
@@ -242,6 +244,8 @@ mod tests {
         assert_eq!(Placement::from_rows(flat), None);
         let tiny = flat.map(|row| row.map(|v| v * 1e-200));
         assert_eq!(Placement::from_rows(tiny), None);
+        let thin = [[1.0, 0.0, 0.0, 0.0], [0.0, 1e-7, 0.0, 0.0], [0.0, 0.0, 1e-7, 0.0]];
+        assert!(Placement::from_rows(thin).is_some());
         let small = [[1e-50, 0.0, 0.0, 0.0], [0.0, 1e-50, 0.0, 0.0], [0.0, 0.0, 1e-50, 0.0]];
         assert!(Placement::from_rows(small).is_some());
     }

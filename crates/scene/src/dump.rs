@@ -260,7 +260,7 @@ mod tests {
              transparency 1 ior 1.5 absorption 0 1 0.5\n\
              use \"pair\"\n  \
                sphere centre 0 0 0 radius 0.1 colour #ff7de1 gloss 0.1 checker #00821e\n  \
-               cone base 0 0 0 radius 1 top 0 0 2 radius 1 colour #ffffff gloss 0 \
+               cylinder base 0 0 0 radius 1 top 0 0 2 radius 1 colour #ffffff gloss 0 \
              transparency 1 ior 1.5 absorption 0 1 0.5\n\
              use \"pair\" x 1 0 0 y 0 1 0 z 0 0 1 at 1 0 0\n"
         );

@@ -11,7 +11,7 @@ fn soon<T>(what: &str, work: impl FnOnce() -> T) -> T {
     let begun = Instant::now();
     let result = work();
     let seconds = begun.elapsed().as_secs_f64();
-    assert!(seconds < 10.0, "{what} took {seconds} s");
+    assert!(seconds < 60.0, "{what} took {seconds} s");
     result
 }
 

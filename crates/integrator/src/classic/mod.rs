@@ -65,7 +65,7 @@ pub(crate) fn warnings(scene: &Scene) -> Vec<String> {
     for (i, light) in scene.lights.iter().enumerate() {
         match light {
             Light::Lamp { point, .. } | Light::Spot { point, .. } => {
-                sizes.push(point.get().coords.amax())
+                sizes.push(point.get().coords.amax());
             }
             Light::Sun { direction, .. } if !can_be_squared(direction.get()) => {
                 warnings.push(format!(

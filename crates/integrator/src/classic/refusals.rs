@@ -1,6 +1,5 @@
 //! What the original's engines have no notion of.
 
-use lancer_math::Vector;
 use lancer_scene::{Checker, Colour, Geometry, Light, Pattern, Projection, Scene, Surface};
 
 /// What is in this scene that the original's engines cannot show: rather no
@@ -11,7 +10,8 @@ pub(crate) fn refusals(scene: &Scene) -> Vec<String> {
     if matches!(camera.projection, Projection::Orthographic(_)) {
         refusals.push("the camera is orthographic".to_owned());
     }
-    if camera.up.get() != Vector::z() || camera.roll.get() != 0.0 {
+    let up = camera.up.get();
+    if !(up.x == 0.0 && up.y == 0.0 && up.z > 0.0) || camera.roll.get() != 0.0 {
         refusals.push("the camera is turned about its axis".to_owned());
     }
     if !scene.background.is_none() {

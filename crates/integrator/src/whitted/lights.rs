@@ -66,6 +66,8 @@ impl Cone {
 /// Which side of a surface is seen, and where the ray was that sees it.
 pub(super) struct Seen<'a> {
     pub(super) point: &'a SurfacePoint<'a>,
+    /// How much farther off than its own error rays must start from it.
+    pub(super) more: f64,
     /// The normals on the side that is seen.
     pub(super) facet: Vector,
     pub(super) shading: Vector,
@@ -133,13 +135,16 @@ impl Lights {
                 continue;
             }
             counts.shadow += 1;
-            let mut ray = seen.point.leave(way);
+            let mut ray = seen.leave(way);
             if let From::Point(lamp) = &light.place {
                 ray.direction = lamp - ray.origin;
             }
             let arrives = self.transmitted(prepared, &ray, t_max, seen.media, counts, place);
             for (sum, arrives) in sum.iter_mut().zip(arrives) {
-                *sum += strength * arrives;
+                // Nothing of something infinite is nothing.
+                if arrives != 0.0 {
+                    *sum += strength * arrives;
+                }
             }
         }
         sum

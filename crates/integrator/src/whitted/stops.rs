@@ -7,7 +7,7 @@
 
 use super::media::Media;
 use lancer_kernel::{Hit, Prepared, SurfacePoint};
-use lancer_math::Ray;
+use lancer_math::{Ray, Vector};
 
 /// Surfaces that are crossed together, the nearest first.
 pub(super) struct Stop<'a> {
@@ -56,10 +56,16 @@ impl<'a> Stop<'a> {
     /// The stop at a hit, with all others that are no farther than rounding.
     pub(super) fn at(prepared: &'a Prepared, ray: &Ray, hit: &Hit) -> Self {
         let first = Touch::new(prepared, ray, hit);
-        // Generous: those that do not belong are sorted out below.
+        // The other surface may be known less well than this one. Generous: those
+        // that do not belong are sorted out below.
+        let other = 4.0 * prepared.coarsest() / (first.cosine.max(GRAZING) * ray.direction.norm());
         // And beyond the hit itself, where the slack is nothing or not a number.
-        let reach = (hit.t + 8.0 * first.slack).max(hit.t).next_up();
-        let hits = prepared.all(ray, (hit.t.next_down(), reach), lancer_kernel::Which::All);
+        let reach = (hit.t + 8.0 * (first.slack + other)).max(hit.t).next_up();
+        let mut hits = prepared.all(ray, (hit.t.next_down(), reach), lancer_kernel::Which::All);
+        // A shape of the user's own may find it one time and not another.
+        if !hits.contains(hit) {
+            hits.insert(0, *hit);
+        }
         Self::gather(prepared, ray, &hits).0
     }
 
@@ -70,8 +76,8 @@ impl<'a> Stop<'a> {
         let mut touches = vec![first];
         for hit in &hits[1..] {
             let touch = Touch::new(prepared, ray, hit);
-            // Not for NaN either.
-            if !(touch.t - t <= slack + touch.slack) {
+            let together = touch.t - t <= slack + touch.slack;
+            if !together {
                 break;
             }
             touches.push(touch);
@@ -85,11 +91,6 @@ impl<'a> Stop<'a> {
     pub(super) fn opaque(&self) -> Option<&SurfacePoint<'a>> {
         let opaque = self.hits.iter().filter(|touch| !touch.point.surface.is_transparent());
         opaque.min_by_key(|touch| touch.point.item).map(|touch| &touch.point)
-    }
-
-    /// The nearest surface.
-    pub(super) fn any(&self) -> Option<SurfacePoint<'a>> {
-        self.hits.first().map(|touch| touch.point)
     }
 
     /// The thin sheets and their cosines.
@@ -111,8 +112,11 @@ impl<'a> Stop<'a> {
         let mut inside = media.clone();
         for touch in &solids {
             let item = touch.point.item;
-            // One that is entered and left here is in neither before nor after.
-            if inside.has(item) == touch.entering && media.has(item) == touch.entering {
+            if media.has(item) == touch.entering {
+                // What starts at an edge may do so beyond the other face there.
+                if touch.t <= 2.0 * touch.slack {
+                    continue;
+                }
                 makes_sense = false;
                 // As if it had been otherwise before.
                 media.cross(item, !touch.entering);
@@ -133,18 +137,34 @@ impl<'a> Stop<'a> {
         Some(Border { before, after, surface, makes_sense })
     }
 
-    /// The borders of media that are crossed: not those of a solid that is entered
-    /// twice here, or left twice, since the ray only touches it.
+    /// The borders of media that are crossed. A solid that is met here an even
+    /// number of times is only touched: at an edge, or where it curves away. Its
+    /// touches are at one place, so their order means nothing.
     fn crossed(&self) -> Vec<&Touch<'a>> {
         let mut crossed: Vec<&Touch<'a>> = Vec::new();
-        for touch in self.hits.iter().filter(|touch| touch.point.surface.has_medium()) {
-            let same = |other: &&Touch<'a>| other.point.item == touch.point.item;
-            match crossed.iter().rposition(same) {
-                Some(at) if crossed[at].entering == touch.entering => drop(crossed.remove(at)),
-                _ => crossed.push(touch),
+        let solids = || self.hits.iter().filter(|touch| touch.point.surface.has_medium());
+        for touch in solids() {
+            let same = || solids().filter(|other| other.point.item == touch.point.item);
+            let (met, entered) = (same().count(), same().filter(|other| other.entering).count());
+            let is_new = crossed.iter().all(|other| other.point.item != touch.point.item);
+            if met % 2 == 1 && is_new && touch.entering == (2 * entered > met) {
+                crossed.push(touch);
             }
         }
         crossed
+    }
+
+    /// The ray that goes on as it came where no border between two media is, `more`
+    /// farther off, to where those media are.
+    pub(super) fn straight_on(&self, direction: Vector, media: &Media, more: f64) -> Ray {
+        let point = &self.hits[0].point;
+        let mut onward = point.leave_by(direction, more);
+        if self.crossed().is_empty() {
+            // It only touches: the surface curves away, to whichever side.
+            let outward = if media.has(point.item) { -point.normal } else { point.normal };
+            onward.origin = point.leave_by(outward, more).origin;
+        }
+        onward
     }
 
     /// How far apart, across the surface, the points of the surfaces are, with

@@ -94,6 +94,8 @@ struct Sum<'a> {
     left: f64,
     /// How many rays there have been.
     rays: u32,
+    /// What the shares of those that were given up add up to.
+    given_up: f64,
     counts: &'a mut RayCounts,
     place: Place,
 }
@@ -133,6 +135,7 @@ impl WhittedTracer {
             pending: BinaryHeap::new(),
             left: 0.0,
             rays: 0,
+            given_up: 0.0,
             counts,
             place: (x, y),
         };
@@ -142,10 +145,14 @@ impl WhittedTracer {
         // anything brighter than display white, the pixel is off by the cutoff at
         // most.
         while sum.left > self.cutoff
+            && sum.rays < MOST_RAYS
             && let Some(next) = sum.pending.pop()
         {
             sum.left -= next.size();
             self.follow(next, &mut sum);
+        }
+        if sum.left + sum.given_up > self.cutoff {
+            sum.counts.troubles.given_up.at((x, y));
         }
         sum.radiance
     }
@@ -166,24 +173,24 @@ impl WhittedTracer {
         if !self.prepared.surface(hit.item).is_transparent() {
             let point = self.prepared.expand(&ray, &hit);
             let at = Pending { ray, share, media, depth, number, kind };
-            return self.opaque(&point, at, sum);
+            return self.opaque(&point, 0.0, at, sum);
         }
         let stop = Stop::at(&self.prepared, &ray, &hit);
         let at = Pending { ray, share, media, depth, number, kind };
         match stop.opaque() {
-            Some(point) => self.opaque(point, at, sum),
+            Some(point) => self.opaque(point, stop.thickness(), at, sum),
             None => self.transparent(&stop, at, sum),
         }
     }
 
     /// A surface that lets nothing through.
-    fn opaque(&self, point: &SurfacePoint<'_>, at: Pending, sum: &mut Sum<'_>) {
-        let seen = Seen::new(&at.ray, point, &at.media);
+    fn opaque(&self, point: &SurfacePoint<'_>, more: f64, at: Pending, sum: &mut Sum<'_>) {
+        let seen = Seen::new(&at.ray, point, more, &at.media);
         let gloss = point.surface.gloss.get();
         sum.add(at.share, point.surface.emission.get());
         self.matte(&seen, scaled(at.share, 1.0 - gloss), sum);
         if gloss > 0.0 {
-            let mirrored = point.leave(reflect(at.ray.direction, seen.shading, seen.facet));
+            let mirrored = seen.leave(reflect(at.ray.direction, seen.shading, seen.facet));
             sum.push(mirrored, scaled(at.share, gloss), at.media, at.depth, Kind::Reflected);
         }
     }
@@ -193,12 +200,10 @@ impl WhittedTracer {
         let Pending { ray, mut share, media, depth, .. } = at;
         let here = medium(media.top(&self.prepared), &self.prepared);
         let more = stop.thickness();
-        let mirror = |seen: &Seen<'_>| {
-            seen.point.leave_by(reflect(ray.direction, seen.shading, seen.facet), more)
-        };
+        let mirror = |seen: &Seen<'_>| seen.leave(reflect(ray.direction, seen.shading, seen.facet));
         let mut last = None;
         for (point, cosine) in stop.sheets() {
-            let seen = Seen::new(&ray, point, &media);
+            let seen = Seen::new(&ray, point, more, &media);
             let parts = Parts::new(point);
             let mirrored =
                 mirrored_by_sheet(cosine, here.ior.get(), point.surface.medium.ior.get());
@@ -219,19 +224,19 @@ impl WhittedTracer {
         });
         let Some((border, point)) = surface else {
             // Nothing bends it here.
-            if let Some(point) = last.or_else(|| stop.any()) {
-                let onward = point.leave_by(ray.direction, more);
-                sum.push(onward, share, beyond, depth, Kind::Transmitted);
-            }
-            return;
+            let onward = match last {
+                Some(sheet) => sheet.leave_by(ray.direction, more),
+                None => stop.straight_on(ray.direction, &beyond, more),
+            };
+            return sum.push(onward, share, beyond, depth, Kind::Transmitted);
         };
-        let seen = Seen::new(&ray, point, &media);
+        let seen = Seen::new(&ray, point, more, &media);
         let parts = Parts::new(point);
         let n1 = medium(border.before, &self.prepared).ior.get();
         let n2 = medium(border.after, &self.prepared).ior.get();
         sum.add(share, point.surface.emission.get());
         self.matte(&seen, scaled(share, parts.matte), sum);
-        match refract(ray.direction, seen.refracting(&ray), n1, n2) {
+        match seen.refract(ray.direction, n1, n2) {
             Refraction::Total => {
                 let back = scaled(share, parts.gloss + parts.clear);
                 sum.push(mirror(&seen), back, media.clone(), depth, Kind::Reflected);
@@ -271,16 +276,28 @@ impl Parts {
 }
 
 impl<'a> Seen<'a> {
-    fn new(ray: &Ray, point: &'a SurfacePoint<'a>, media: &'a Media) -> Self {
+    fn new(ray: &Ray, point: &'a SurfacePoint<'a>, more: f64, media: &'a Media) -> Self {
         let from_behind = ray.direction.dot(&point.normal) > 0.0;
         let side = |normal: Vector| if from_behind { -normal } else { normal };
-        Self { point, facet: side(point.normal), shading: side(point.shading), media }
+        Self { point, more, facet: side(point.normal), shading: side(point.shading), media }
     }
 
-    /// The normal to bend a ray at: that to shade with, unless the ray comes from
-    /// behind it.
-    fn refracting(&self, ray: &Ray) -> Vector {
-        if ray.direction.dot(&self.shading) < 0.0 { self.shading } else { self.facet }
+    /// The ray from here in that direction, past all that is crossed together.
+    pub(super) fn leave(&self, direction: Vector) -> Ray {
+        self.point.leave_by(direction, self.more)
+    }
+
+    /// What becomes of a ray: by the normal to shade with, unless the ray comes
+    /// from behind it or would not go to the other side of the surface.
+    fn refract(&self, direction: Vector, n1: f64, n2: f64) -> Refraction {
+        if direction.dot(&self.shading) < 0.0 {
+            let refraction = refract(direction, self.shading, n1, n2);
+            match refraction {
+                Refraction::Part { direction, .. } if direction.dot(&self.facet) >= 0.0 => {}
+                _ => return refraction,
+            }
+        }
+        refract(direction, self.facet, n1, n2)
     }
 }
 
@@ -310,8 +327,13 @@ impl Sum<'_> {
         if size == 0.0 {
             return;
         }
-        if depth >= DEEPEST || self.rays > MOST_RAYS {
-            self.counts.troubles.given_up.at(self.place);
+        if !share.iter().all(|share| share.is_finite()) {
+            // It is found where colours are looked at.
+            self.radiance = [f64::NAN; 3];
+            return;
+        }
+        if depth >= DEEPEST {
+            self.given_up += size;
             return;
         }
         self.left += size;
@@ -337,7 +359,7 @@ impl Tracer for WhittedTracer {
         };
         let point = self.prepared.expand(&ray, &hit);
         let nothing = Media::default();
-        let seen = Seen::new(&ray, &point, &nothing);
+        let seen = Seen::new(&ray, &point, 0.0, &nothing);
         Some(LayerPixel {
             axis_depth: (hit.t * ray.direction.dot(&self.view.axis())) as f32,
             ray_depth: hit.t as f32,

@@ -30,7 +30,7 @@ fn glass_on_water_bends_light_as_two_layers_do() {
     let expected = in_glass + in_water + libm::tan(50.0_f64.to_radians());
     assert_near(expected, 2.4903, 2e-5, "a known number");
     let (a, b) = (glass(1.5), glass(1.33));
-    for gap in [0.0, 1e-15, 1e-12, 1e-9, 1e-6, 5e-5, 1e-4, 1e-2] {
+    for gap in [0.0, 1e-15, 1e-14, 5e-14, 1e-13, 1e-12, 1e-9, 1e-6, 5e-5, 1e-4, 1e-2] {
         for (gap, surfaces) in
             [(gap, [a, b]), (-gap, [a, b]), (-gap, [a.priority(1), b]), (-gap, [a, b.priority(1)])]
         {
@@ -68,7 +68,7 @@ fn glass_on_water_lets_through_what_two_borders_do() {
     let in_glass = libm::asin(libm::sin(50.0_f64.to_radians()) / 1.5).to_degrees();
     let two = (1.0 - fresnel(50.0, 1.0, 1.5)) * (1.0 - fresnel(in_glass, 1.5, 1.33));
     assert_near(two, 0.938_346_095_2, 1e-9, "a known number");
-    for overlap in [0.0, 1e-15, 1e-12, 1e-9, 5e-5] {
+    for overlap in [0.0, 1e-15, 1e-14, 1e-13, 1e-12, 1e-9, 5e-5] {
         for surfaces in [[a, b], [a.priority(1), b], [a, b.priority(1)]] {
             let found = light_in_water(-overlap, 1e-2, surfaces);
             assert_near(found, two, 2e-7, &format!("overlap {overlap}"));
@@ -185,4 +185,15 @@ fn what_is_only_touched_hides_nothing() {
     // Exactly: the ball's edge is at x = 1.
     let touched = Shape::sphere([0.0, 0.0, 0.0], 1.0, glass(1.0));
     assert_near(behind(touched), alone, FILM, "a ball is touched");
+}
+
+/// The same of light on its way to a shadow.
+#[test]
+fn what_light_only_touches_shades_nothing() {
+    let lit = scene(eye([3.0, 1.0, 1.0], [1.0, 0.0, 0.0]), 0.0)
+        .shape(floor(0.0, white()))
+        .shape(Shape::sphere([0.0, 0.0, 3.0], 1.0, glass(1.0)))
+        .shape(Shape::sphere([1.0, 0.0, 9.0], 0.5, glass(1.0)))
+        .light(Light::sun([0.0, 0.0, -1.0], 1.0));
+    assert_near(grey(lit), 1.0, FILM, "a ball is touched");
 }

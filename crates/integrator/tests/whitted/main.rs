@@ -6,6 +6,7 @@
 
 mod absorption;
 mod camera;
+mod closed;
 mod contact;
 mod everything;
 mod exposure;
@@ -17,6 +18,8 @@ mod overlaps;
 mod paths;
 mod rooms;
 mod shadows;
+mod sheets;
+mod smooth;
 mod spots;
 mod symmetry;
 mod troubles;

@@ -80,7 +80,9 @@ impl Primitive for Facets {
 
     fn each(&self, ray: &Ray, from: f64, to: f64, found: &mut dyn FnMut(Crossing)) {
         let shear = Shear::new(ray);
-        self.hierarchy.visit(ray, from, to, |triangle, _| {
+        // From the beginning: the flat box of a triangle may end before its hit
+        // does, by rounding.
+        self.hierarchy.visit(ray, from.min(0.0), to, |triangle, _| {
             if let Some(met) = shear.meet(&self.mesh.corners(triangle))
                 && met.t > from
                 && met.t < to

@@ -13,7 +13,7 @@ const LENGTH_AND_ANGLE: Attribute = Cells::LengthAndAngle.attribute();
 const OPEN: Attribute = optional(
     "open",
     "`true` or `false`",
-    "whether it has no lids: a tube with no inside. `false` where it is missing",
+    "whether it has no lids, and so no inside. `false` where it is missing",
 );
 
 /// Names that others have for a `size`.

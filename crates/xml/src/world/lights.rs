@@ -21,7 +21,7 @@ pub(super) fn lights(parent: &Reader<'_, '_>, out: Out<'_>) -> Vec<Light> {
         lights.extend(light(&reader, element, out));
     }
     if empty {
-        warn_empty(parent, "nothing shines: the picture will be black", out);
+        warn_empty(parent, "nothing shines: surfaces will be black unless they emit light", out);
     }
     lights
 }

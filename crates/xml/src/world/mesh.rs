@@ -62,11 +62,14 @@ impl<'a, 'f> Meshes<'a, 'f> {
         let bytes = match self.files.read(key.file) {
             Ok(bytes) => bytes,
             Err(reason) => {
-                out.push(Diagnostic::error(
-                    reader.span_of("file"),
-                    format!("the mesh `{file}` cannot be read"),
-                    one_line(&reason, 200),
-                ));
+                out.push(
+                    Diagnostic::error(
+                        reader.span_of("file"),
+                        format!("the mesh `{file}` cannot be read"),
+                        one_line(&reason, 200),
+                    )
+                    .help("its name is relative to the folder of the scene's file".to_owned()),
+                );
                 return None;
             }
         };
