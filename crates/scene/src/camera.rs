@@ -140,6 +140,24 @@ impl Camera {
         Ok(Self { projection: Projection::Orthographic(width), ..self })
     }
 
+    /// The same camera with another upward direction.
+    ///
+    /// # Errors
+    /// Where it is zero or not finite.
+    pub fn up(self, xyz: [f64; 3]) -> Result<Self, InvalidField> {
+        let up = Direction::new(xyz).map_err(|e| e.in_field("up"))?;
+        Ok(Self { up, ..self })
+    }
+
+    /// The same camera, turned clockwise about its axis as seen from behind it.
+    ///
+    /// # Errors
+    /// Where `degrees` is not finite.
+    pub fn roll(self, degrees: f64) -> Result<Self, InvalidField> {
+        let roll = Degrees::new(degrees).map_err(|e| e.in_field("roll"))?;
+        Ok(Self { roll, ..self })
+    }
+
     /// The same camera, exposed by so many stops.
     ///
     /// # Errors

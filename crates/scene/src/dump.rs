@@ -235,7 +235,9 @@ mod tests {
         let pair = Arc::new(pair.expect("small"));
         let camera = Camera::new([0.0, -1.5, 1e-7], [0.0, 1.0, 0.1], 2.0, [40, 30]);
         let scene = Scene::builder()
-            .camera(camera.and_then(|camera| camera.field_of_view(50.0)?.stops(-1.5)))
+            .camera(camera.and_then(|camera| {
+                camera.field_of_view(50.0)?.up([0.0, 0.5, 2.0])?.roll(3.0)?.stops(-1.5)
+            }))
             .background(Spectrum::new([0.25, 0.5, 1.0]))
             .light(Light::sun([0.0, 0.0, -1.0], 0.25))
             .light(Light::lamp([1.0, 2.0, 3.0], 1.0).map(Light::without_falloff))
@@ -249,7 +251,8 @@ mod tests {
             .expect("valid");
         assert_eq!(
             scene.to_string(),
-            "camera origin 0 -1.5 0.0000001 target 0 1 0.1 fov 50 exposure -1.5 pixels 40 x 30\n\
+            "camera origin 0 -1.5 0.0000001 target 0 1 0.1 fov 50 up 0 0.5 2 roll 3 \
+             exposure -1.5 pixels 40 x 30\n\
              background 0.25 0.5 1\n\
              sun direction 0 0 -1 brightness 0.25\n\
              lamp point 1 2 3 brightness 1 falloff none\n\

@@ -156,8 +156,7 @@ mod tests {
 
     #[test]
     fn a_rolled_camera_leans_to_its_right() {
-        let mut camera = camera([0.0, 1.0, 0.0]);
-        camera.roll = lancer_scene::Degrees::new(90.0).expect("finite");
+        let camera = camera([0.0, 1.0, 0.0]).roll(90.0).expect("finite");
         let view = View::new(&camera);
         assert_eq!((view.right, view.up), (-Vector::z(), Vector::x()));
     }
