@@ -151,7 +151,9 @@ impl WhittedTracer {
             sum.left -= next.size();
             self.follow(next, &mut sum);
         }
-        if sum.left + sum.given_up > self.cutoff {
+        // Without rays nothing is left, whatever rounding has made of the sum.
+        let left = if sum.pending.is_empty() { 0.0 } else { sum.left };
+        if left + sum.given_up > self.cutoff {
             sum.counts.troubles.given_up.at((x, y));
         }
         sum.radiance
