@@ -42,7 +42,10 @@ impl HalfSpace {
 pub(crate) fn put_on_plane(p: &Point, origin: &Point, normal: &Vector) -> (Point, f64) {
     let off = (p - origin).dot(normal) / normal.norm_squared();
     let point = p - normal * off;
-    (point, 8.0 * f64::EPSILON * (point.coords.amax() + origin.coords.amax()))
+    // Not of the point alone: where it is near the origin of the world, what was
+    // subtracted may be larger than what is left.
+    let size = p.coords.amax().max(point.coords.amax()) + origin.coords.amax();
+    (point, 8.0 * f64::EPSILON * size)
 }
 
 impl Primitive for HalfSpace {
@@ -174,6 +177,27 @@ mod tests {
                 let expected = if odd == other { Cell::First } else { Cell::Second };
                 assert_eq!(shape.cell(&contact, 0, &checker), expected, "{normal:?} {i} {j}");
             }
+        }
+    }
+
+    /// A point near the origin of the world is no better known than the larger
+    /// one that it was made from.
+    #[test]
+    fn points_near_the_origin_are_left_like_others() {
+        let mut rng = Rng::with_seed(11);
+        for case in 0..20_000 {
+            let normal = super::super::testing::direction(&mut rng);
+            let shape = plane([0.0; 3], normal.into());
+            // Along the normal, so that all of the point's error is across the plane.
+            let distance = 0.5 + 10.0 * rng.f64();
+            let from = Ray::new(Point::from(normal * distance), -normal);
+            let Some(crossing) = shape.nearest(&from, f64::INFINITY) else { continue };
+            let contact = shape.contact(&from, &crossing);
+            let n = if normal.dot(&from.direction) < 0.0 { normal } else { -normal };
+            let away = contact.point + n * (2.0 * contact.error);
+            let mirrored = from.direction - n * (2.0 * n.dot(&from.direction));
+            let left = Ray::new(away, mirrored);
+            assert_eq!(shape.nearest(&left, f64::INFINITY), None, "case {case}");
         }
     }
 }
