@@ -40,6 +40,10 @@ const SIDE: u32 = 0;
 const BASE: u32 = 1;
 const TOP: u32 = 2;
 
+/// A line passes the narrow end closely if it is so many times nearer to it than
+/// the ray's origin.
+const NARROW: f64 = 16.0;
+
 #[derive(Debug)]
 pub(crate) struct Barrel {
     base: Point,
@@ -187,7 +191,14 @@ impl Barrel {
 impl Primitive for Barrel {
     #[inline]
     fn crossings(&self, ray: &Ray) -> Crossings {
-        let near = Near::around(ray, &self.narrow, self.size);
+        // Past the apex or a narrow end what matters is small against the distance of
+        // an origin that is near the shape, too.
+        let near = Near::new(ray, &self.narrow);
+        let near = if NARROW * near.origin.amax() < (ray.origin - self.narrow).amax() {
+            near
+        } else {
+            Near::around(ray, &self.narrow, self.size)
+        };
         let local = |v: &Vector| {
             Vector::new(self.frame.first.dot(v), self.frame.second.dot(v), self.axis.dot(v))
         };
