@@ -117,7 +117,7 @@ const SHAPES: &[(&str, &str)] = &[
     ),
     (
         r#"<cylinder color="red" size="2"><base x="1" y="2" z="3"/><top x="1" y="2" z="5"/></cylinder>"#,
-        "cone base 1 2 3 radius 2 top 1 2 5 radius 2",
+        "cylinder base 1 2 3 radius 2 top 1 2 5 radius 2",
     ),
     (
         r#"<cone color="red" size="2" open="true"><base x="1" y="2" z="3"/><top x="1" y="2" z="5"/>

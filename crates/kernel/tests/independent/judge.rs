@@ -19,7 +19,7 @@ const STEEP: f64 = 1e-3;
 /// (an origin that is known to a rounding knows no better how near that is), and
 /// where shapes are placed (the ray's numbers in the space of the group are
 /// rounded themselves).
-const ROUNDINGS: f64 = 16.0;
+const ROUNDINGS: f64 = 8.0;
 
 /// Whether a surface is ahead of a ray or behind it may be found either way where
 /// the origin is so many roundings away from it.
