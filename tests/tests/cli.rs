@@ -542,6 +542,7 @@ fn scenes_find_their_meshes_and_old_engines_refuse_new_scenes() {
     fs::write(folder.path("inner/mesh.obj"), triangle).expect("written");
     let classic = ["render", "inner/scene.xml", "-o", "b.png", "--engine", "classic"];
     folder.run(&classic).fails(1, "shape 1 is a mesh");
+    folder.run(&classic).fails(1, "use --engine whitted");
     assert!(!folder.path("b.png").exists());
     let run = folder.run(&["check", "inner/scene.xml", "--engine", "classic"]);
     assert!(run.code() == Some(1) && run.err().contains("shape 1 is a mesh"), "{}", run.err());
@@ -564,4 +565,15 @@ fn media_that_make_no_sense_are_told() {
         "{}",
         run.err()
     );
+}
+
+/// What has no end, or nobody who writes to it, is not waited for.
+#[cfg(unix)]
+#[test]
+fn a_device_is_no_mesh() {
+    let folder = Folder::new();
+    std::os::unix::fs::symlink("/dev/zero", folder.path("mesh.obj")).expect("linked");
+    let scene = SCENE.replace("<shapes>", "<shapes><mesh color=\"red\" file=\"mesh.obj\"/>");
+    fs::write(folder.path("mesh.xml"), scene).expect("written");
+    folder.run(&["check", "mesh.xml"]).fails(1, "no ordinary file");
 }

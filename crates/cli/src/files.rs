@@ -30,19 +30,18 @@ impl lancer_xml::Files for BesideScene<'_> {
     fn read(&self, path: &str) -> Result<Vec<u8>, String> {
         let folder = if is_standard(self.0) { Path::new(".") } else { folder_of(self.0) };
         let path = folder.join(path);
-        let file = fs::File::open(&path).map_err(|e| bare(&e).to_string())?;
-        let about = file.metadata().map_err(|e| bare(&e).to_string())?;
+        let about = fs::metadata(&path).map_err(|e| bare(&e).to_string())?;
         if about.is_dir() {
             return Err("it is a folder".to_owned());
         }
-        let mut bytes = Vec::new();
-        // A device or a pipe may have no end.
-        let most = MOST_MESH_BYTES + 1;
-        file.take(most).read_to_end(&mut bytes).map_err(|e| bare(&e).to_string())?;
-        if bytes.len() as u64 == most {
+        // A device or a pipe may have no end, or not begin.
+        if !about.is_file() {
+            return Err("it is no ordinary file".to_owned());
+        }
+        if about.len() > MOST_MESH_BYTES {
             return Err(format!("it has more than {MOST_MESH_BYTES} bytes"));
         }
-        Ok(bytes)
+        fs::read(&path).map_err(|e| bare(&e).to_string())
     }
 }
 

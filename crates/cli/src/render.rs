@@ -290,6 +290,9 @@ fn draw(
     bar.finish_and_clear();
     result.map_err(|error| match error {
         RenderError::Interrupted => interrupted(),
+        RenderError::Refused { .. } => {
+            Failure::work(format_args!("{error}; use --engine {WHITTED}"))
+        }
         other => Failure::work(other),
     })
 }

@@ -1,11 +1,11 @@
 /// Where a ray goes through a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Crossing {
+pub(crate) struct Crossing {
     /// How many directions away from the ray's origin; never NaN.
-    pub t: f64,
+    pub(crate) t: f64,
     /// Which part of the surface: a side, a lid, a face, a triangle of a mesh;
     /// the shape that reports it knows what the number means.
-    pub part: u32,
+    pub(crate) part: u32,
 }
 
 /// All crossings of a ray's line with a surface that no line crosses more than

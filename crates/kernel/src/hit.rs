@@ -34,8 +34,6 @@ pub struct SurfacePoint<'a> {
     pub shape: u32,
     /// The number of the item.
     pub item: u32,
-    /// Whether the surface encloses a medium.
-    pub borders_medium: bool,
 }
 
 impl SurfacePoint<'_> {

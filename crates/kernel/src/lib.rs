@@ -37,6 +37,6 @@ mod prepared;
 mod primitive;
 mod shapes;
 
-pub use crossing::Crossing;
+use crossing::Crossing;
 pub use hit::{Hit, SurfacePoint};
 pub use prepared::{Prepared, Which};

@@ -100,12 +100,6 @@ impl Prepared {
         builder.finish()
     }
 
-    /// How many items there are.
-    #[must_use]
-    pub fn item_count(&self) -> usize {
-        self.items.len()
-    }
-
     /// Whether any of them lets light through.
     #[must_use]
     pub const fn has_transparent(&self) -> bool {
@@ -210,7 +204,6 @@ impl Prepared {
             albedo,
             shape: item.shape,
             item: hit.item,
-            borders_medium: ready.is_closed,
         };
         if item.placement != 0 {
             surface.place(&self.placements[item.placement as usize]);
@@ -324,16 +317,17 @@ impl Builder {
         let mut coarsest = 0.0_f64;
         for (i, item) in (0..).zip(&items) {
             let ready = &shapes[item.shape as usize];
-            let reach = ready.primitive.bounds().filter(is_finite).map(|bounds| {
-                let far = Point::from(bounds.min.coords.abs().sup(&bounds.max.coords.abs()));
-                let error = 64.0 * f64::EPSILON * bounds.reach();
-                let placement = &placements[item.placement as usize];
-                placement.error_of(&far, &placement.point(&far), error)
-            });
-            coarsest = reach.map_or(coarsest, |reach| coarsest.max(reach));
-            let bounds = ready.primitive.bounds().map(|bounds| match item.placement {
-                0 => bounds,
-                placement => placements[placement as usize].bounds(&bounds),
+            let placement = &placements[item.placement as usize];
+            let local = ready.primitive.bounds().filter(is_finite);
+            if let Some(local) = &local {
+                let far = Point::from(local.min.coords.abs().sup(&local.max.coords.abs()));
+                let error = 64.0 * f64::EPSILON * local.reach();
+                let error = placement.error_of(&far, &placement.point(&far), error);
+                coarsest = coarsest.max(error);
+            }
+            let bounds = local.map(|local| match item.placement {
+                0 => local,
+                _ => placement.bounds(&local),
             });
             match bounds.filter(is_finite) {
                 Some(bounds) => {

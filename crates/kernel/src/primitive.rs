@@ -59,9 +59,14 @@ pub(crate) trait Primitive: std::fmt::Debug + Send + Sync {
     /// A box around it, rounded outward; `None` where it has no end.
     fn bounds(&self) -> Option<Bounds>;
 
-    /// Whether `point` is inside; false where the shape has no inside.
-    fn contains(&self, point: &Point) -> bool;
+    /// Whether `point` is inside; never where the shape has no inside.
+    fn contains(&self, _point: &Point) -> bool {
+        false
+    }
 
-    /// Its volume, for which a bound serves; infinite where it has no end.
-    fn volume(&self) -> f64;
+    /// Its volume, for which a bound serves; infinite where it has no end, nothing
+    /// where it has no inside.
+    fn volume(&self) -> f64 {
+        0.0
+    }
 }

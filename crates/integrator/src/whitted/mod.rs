@@ -131,7 +131,7 @@ fn open_media(shapes: &[Shape], of: &str, warnings: &mut Vec<String>) {
         }
         let (number, kind) = (i + 1, shape.geometry.kind());
         let why = match shape.geometry {
-            Geometry::Mesh(_) => "it has edges with one triangle alone",
+            Geometry::Mesh(_) => "not each of its edges has a triangle on either side",
             _ => "it has no inside",
         };
         warnings.push(format!(

@@ -3,7 +3,7 @@
 use crate::Crossing;
 use crate::crossing::Crossings;
 use crate::primitive::{Cell, Contact, Primitive};
-use lancer_math::{Bounds, Point, Ray, unit};
+use lancer_math::{Bounds, Ray, unit};
 use lancer_scene::{Checker, CustomShape};
 use std::sync::Arc;
 
@@ -59,10 +59,6 @@ impl Primitive for Own {
         None
     }
 
-    fn contains(&self, _point: &Point) -> bool {
-        false
-    }
-
     /// Not known.
     fn volume(&self) -> f64 {
         f64::INFINITY
@@ -73,7 +69,7 @@ impl Primitive for Own {
 mod tests {
     use super::super::testing::{assert_sound, ray, ts};
     use super::*;
-    use lancer_math::Vector;
+    use lancer_math::{Point, Vector};
 
     /// The plane z = 1, seen from both sides.
     #[derive(Debug)]

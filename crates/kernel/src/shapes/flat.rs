@@ -77,14 +77,6 @@ impl Primitive for Round {
         let reach = across(&self.frame.axis) * self.radius + Vector::repeat(slack);
         Some(Bounds { min: self.centre, max: self.centre }.grown(reach))
     }
-
-    fn contains(&self, _point: &Point) -> bool {
-        false
-    }
-
-    fn volume(&self) -> f64 {
-        0.0
-    }
 }
 
 /// A flat piece with a corner and two sides there.
@@ -192,14 +184,6 @@ impl Primitive for Sheet {
         let Patch { corner, sides: [a, b], .. } = self.patch;
         let around = Bounds::around([corner, corner + a, corner + b, corner + a + b]);
         Some(around.grown(Vector::repeat(2.0 * f64::EPSILON * self.size)))
-    }
-
-    fn contains(&self, _point: &Point) -> bool {
-        false
-    }
-
-    fn volume(&self) -> f64 {
-        0.0
     }
 }
 

@@ -71,14 +71,6 @@ impl Primitive for Facet {
     fn bounds(&self) -> Option<Bounds> {
         Some(Bounds::around(self.corners))
     }
-
-    fn contains(&self, _point: &Point) -> bool {
-        false
-    }
-
-    fn volume(&self) -> f64 {
-        0.0
-    }
 }
 
 #[cfg(test)]
