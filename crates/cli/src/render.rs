@@ -6,7 +6,9 @@ use crate::stats::{Seconds, Stats, Stopwatch, parts};
 use crate::{Failure, interrupt, preview, report};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use lancer_film::Size;
-use lancer_integrator::{Engine, RenderError, RenderSettings, Rendered, Trouble, Whitted, render};
+use lancer_integrator::{
+    Engine, KernelSettings, RenderError, RenderSettings, Rendered, Trouble, Whitted, Width, render,
+};
 use lancer_output::{Format, encode, encode_exr_with_layers, to_rgb8};
 use lancer_scene::{PixelCount, Scene};
 use lancer_xml::Options;
@@ -272,6 +274,8 @@ fn draw(
     engine: &dyn Engine,
     outputs: &Outputs,
 ) -> Result<Rendered, Failure> {
+    let lanes = Width::from_environment()
+        .map_err(|error| Failure::Usage(format!("LANCER_LANES: {error}")))?;
     let bar = progress_bar(args);
     let progress = |done, all| {
         bar.set_length(all);
@@ -282,6 +286,7 @@ fn draw(
         for_display: outputs.shows_codes(args),
         exposure: args.exposure,
         layers: args.layers.is_some(),
+        kernel: KernelSettings { lanes, ..KernelSettings::default() },
         threads: args.threads,
         progress: Some(&progress),
         cancel: Some(interrupt::watch()),

@@ -1,5 +1,6 @@
 use crate::classic::lighting::Lighting;
 use crate::{Engine, PinholeCamera, RayCounts, Rgb, Tracer, World};
+use lancer_kernel::KernelSettings;
 use lancer_scene::Scene;
 
 /// The original program's non-recursive engine: the lit colour of the nearest
@@ -24,7 +25,7 @@ impl Engine for Direct {
         crate::classic::refusals(scene)
     }
 
-    fn prepare<'s>(&'s self, scene: &'s Scene) -> Box<dyn Tracer + 's> {
+    fn prepare<'s>(&'s self, scene: &'s Scene, _kernel: &KernelSettings) -> Box<dyn Tracer + 's> {
         let world = World::new(scene);
         Box::new(DirectTracer {
             camera: PinholeCamera::new(&scene.camera),

@@ -1,5 +1,6 @@
 use crate::{Classic, Direct, RayCounts, Whitted};
 use lancer_film::{Display, LayerPixel, Window};
+use lancer_kernel::KernelSettings;
 use lancer_scene::Scene;
 
 /// Red, green and blue in the unit of the film's [`Display`].
@@ -37,8 +38,9 @@ pub trait Engine: Sync {
         Vec::new()
     }
 
-    /// Makes ready to render `scene`, which it does not refuse.
-    fn prepare<'s>(&'s self, scene: &'s Scene) -> Box<dyn Tracer + 's>;
+    /// Makes ready to render `scene`, which it does not refuse. The settings change
+    /// no pixel.
+    fn prepare<'s>(&'s self, scene: &'s Scene, kernel: &KernelSettings) -> Box<dyn Tracer + 's>;
 }
 
 /// An engine made ready for one scene. It is shared by all threads.

@@ -36,5 +36,6 @@ pub use classic::world::{Hit, SurfacePoint, World};
 pub use counts::{RayCounts, Trouble, Troubles};
 pub use direct::Direct;
 pub use engine::{Engine, Rgb, Tracer, engine_by_name, engines};
+pub use lancer_kernel::{Culling, KernelSettings, lanes::Width};
 pub use render::{Progress, RenderError, RenderSettings, Rendered, TILE_SIDE, render};
 pub use whitted::Whitted;

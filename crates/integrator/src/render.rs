@@ -1,5 +1,6 @@
 use crate::{Engine, RayCounts, Rgb, Tracer};
 use lancer_film::{Display, Film, FilmError, LayerPixel, Layers, Size, Window, auto_stops};
+use lancer_kernel::KernelSettings;
 use lancer_scene::{Exposure, Scene};
 use rayon::prelude::*;
 use std::num::NonZeroUsize;
@@ -22,6 +23,8 @@ pub struct RenderSettings<'a> {
     pub exposure: Option<Exposure>,
     /// Whether to find out also what each pixel's ray meets first.
     pub layers: bool,
+    /// How rays are followed.
+    pub kernel: KernelSettings,
     /// How many threads to use; one for each core by default.
     pub threads: Option<NonZeroUsize>,
     /// Called now and then, from any thread, as work goes on.
@@ -115,7 +118,7 @@ pub fn render(
         .build()
         .map_err(|reason| RenderError::Threads { threads, reason })?;
 
-    let tracer = engine.prepare(scene);
+    let tracer = engine.prepare(scene, &settings.kernel);
     let work = Work {
         engine: engine.name(),
         tracer: &*tracer,

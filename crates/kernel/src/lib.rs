@@ -35,8 +35,11 @@ mod hit;
 mod near;
 mod prepared;
 mod primitive;
+mod settings;
 mod shapes;
 
 use crossing::Crossing;
+pub mod lanes;
 pub use hit::{Hit, SurfacePoint};
 pub use prepared::{Prepared, Which};
+pub use settings::{Culling, KernelSettings};

@@ -3,6 +3,7 @@ use super::lanes::LANES;
 use super::lighting::Lighting;
 use crate::{Engine, Hit, PinholeCamera, RayCounts, Rgb, Tracer, World};
 use lancer_film::Window;
+use lancer_kernel::KernelSettings;
 use lancer_math::{Ray, Vector};
 use lancer_scene::Scene;
 
@@ -34,7 +35,7 @@ impl Engine for Classic {
         super::refusals(scene)
     }
 
-    fn prepare<'s>(&'s self, scene: &'s Scene) -> Box<dyn Tracer + 's> {
+    fn prepare<'s>(&'s self, scene: &'s Scene, _kernel: &KernelSettings) -> Box<dyn Tracer + 's> {
         let world = World::new(scene);
         let lighting = Lighting::new(scene, &world);
         let eye = Eye::new(PinholeCamera::new(&scene.camera), &world, &lighting);

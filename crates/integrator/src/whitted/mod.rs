@@ -11,6 +11,7 @@ mod view;
 
 use crate::{Engine, Tracer};
 use lancer_film::Display;
+use lancer_kernel::KernelSettings;
 use lancer_scene::{Geometry, Group, InvalidField, OutOfRange, Placed, Scene, Shape};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -104,7 +105,7 @@ impl Engine for Whitted {
         warnings
     }
 
-    fn prepare<'s>(&'s self, scene: &'s Scene) -> Box<dyn Tracer + 's> {
+    fn prepare<'s>(&'s self, scene: &'s Scene, _kernel: &KernelSettings) -> Box<dyn Tracer + 's> {
         Box::new(tracer::WhittedTracer::new(scene, self.cutoff))
     }
 }
