@@ -62,18 +62,31 @@ impl Bvh {
         Self { nodes, order }
     }
 
+    /// The numbers of the boxes, those of each leaf together.
+    pub(crate) fn leaves(&self) -> impl Iterator<Item = &[u32]> {
+        let leaves = self.nodes.iter().filter(|node| node.count > 0);
+        leaves.map(|node| &self.order[node.first as usize..][..node.count as usize])
+    }
+
     /// Calls `meet` with the number of each box that the ray may be in for some
     /// t from `from` to `to`, roughly the nearest first; what it returns is the
     /// new `to`.
     #[inline]
-    pub(crate) fn visit(
+    pub(crate) fn visit(&self, ray: &Ray, from: f64, to: f64, meet: impl FnMut(usize, f64) -> f64) {
+        self.visit_wide(ray, 0.0, from, to, meet);
+    }
+
+    /// The same, of boxes each of which is larger by `margin` on all sides.
+    #[inline]
+    pub(crate) fn visit_wide(
         &self,
         ray: &Ray,
+        margin: f64,
         from: f64,
         mut to: f64,
         mut meet: impl FnMut(usize, f64) -> f64,
     ) {
-        let slabs = Slabs::new(ray);
+        let slabs = Slabs::new(ray, margin);
         let mut stack = [0_u32; STACK];
         let mut height = 0;
         let mut index = 0_u32;
@@ -193,7 +206,9 @@ fn split(boxes: &[Bounds], part: &mut [u32], bounds: &Bounds, depth: usize) -> O
 
 /// A ray made ready to be held against boxes.
 struct Slabs {
-    origin: Vector,
+    /// Moved by the margin, once against the direction and once along it.
+    before: Vector,
+    after: Vector,
     inverse: Vector,
     towards_less: [bool; 3],
 }
@@ -203,10 +218,12 @@ struct Slabs {
 const ROUNDED_UP: f64 = 1.0 + 8.0 * f64::EPSILON;
 
 impl Slabs {
-    fn new(ray: &Ray) -> Self {
+    fn new(ray: &Ray, margin: f64) -> Self {
         let inverse = ray.direction.map(|d| 1.0 / d);
+        let margin = inverse.map(|i| margin.copysign(i));
         Self {
-            origin: ray.origin.coords,
+            before: ray.origin.coords + margin,
+            after: ray.origin.coords - margin,
             inverse,
             // By the bit: 1 / -0 is minus infinity.
             towards_less: [0, 1, 2].map(|axis| inverse[axis].is_sign_negative()),
@@ -227,8 +244,8 @@ impl Slabs {
             } else {
                 (bounds.min[axis], bounds.max[axis])
             };
-            let enter = (low - self.origin[axis]) * self.inverse[axis];
-            let leave = (high - self.origin[axis]) * self.inverse[axis];
+            let enter = (low - self.before[axis]) * self.inverse[axis];
+            let leave = (high - self.after[axis]) * self.inverse[axis];
             // Outward: away from where the ray is.
             let enter = if enter > 0.0 { enter / ROUNDED_UP } else { enter * ROUNDED_UP };
             let leave = if leave > 0.0 { leave * ROUNDED_UP } else { leave / ROUNDED_UP };

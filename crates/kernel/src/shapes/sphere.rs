@@ -34,6 +34,17 @@ impl Ball {
         Self { centre: sphere.centre.get(), radius: sphere.radius.get() }
     }
 
+    /// From its numbers, as [`numbers`](Self::numbers) gives them.
+    #[inline]
+    pub(crate) fn at(centre: [f64; 3], radius: f64) -> Self {
+        Self { centre: Point::from(centre), radius }
+    }
+
+    /// Its centre and radius.
+    pub(crate) fn numbers(&self) -> ([f64; 3], f64) {
+        (self.centre.coords.into(), self.radius)
+    }
+
     /// The squared distance of a point from the centre minus that of the surface.
     fn excess(&self, point: &Point) -> f64 {
         let (square, square_lost) = two_product(self.radius, self.radius);
