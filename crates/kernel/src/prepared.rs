@@ -1,12 +1,20 @@
 use crate::bvh::Bvh;
+use crate::checker;
+use crate::lanes::{Lanes, MOST, Mask, Real, lanes_of};
+use crate::listed::{Candidates, Goal, LaneHits, LanePoints, Listed};
 use crate::primitive::{Cell, Primitive};
+use crate::shapes::plane::HalfSpace;
 use crate::shapes::primitive;
-use crate::{Hit, SurfacePoint};
-use lancer_math::{Bounds, Placement, Point, Ray};
-use lancer_scene::{Group, Pattern, Placed, Scene, Shape, Surface};
+use crate::shapes::sphere::Ball;
+use crate::{Hit, Rays, SurfacePoint};
+use lancer_math::{Bounds, Placement, Point, Ray, Vector};
+use lancer_scene::{Checker, Geometry, Group, Pattern, Placed, Scene, Shape, Surface};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::sync::Arc;
+
+/// More spheres than these go into the hierarchy.
+const MOST_BALLS: usize = 16;
 
 /// The shapes of a scene, made ready to be met by rays. It does not change any
 /// more and may be asked from any thread.
@@ -22,10 +30,12 @@ pub struct Prepared {
     /// The first one leaves everything where it is.
     placements: Vec<Placement>,
     items: Vec<Item>,
-    /// Items that a box holds, and the hierarchy of their boxes.
+    /// Spheres and planes that are met in lanes.
+    listed: Listed,
+    /// Other items that a box holds, and the hierarchy of their boxes.
     bounded: Vec<u32>,
     hierarchy: Bvh,
-    /// The others; a ray is held against each.
+    /// Those without an end; a ray is held against each.
     unbounded: Vec<u32>,
     /// Items that can be filled with a medium.
     solids: Vec<u32>,
@@ -39,9 +49,18 @@ struct Ready {
     primitive: Box<dyn Primitive>,
     surface: Surface,
     is_closed: bool,
+    simple: Simple,
     /// The colour's shares, and those of a checker.
     albedo: [f64; 3],
     second: [f64; 3],
+}
+
+/// A shape that can be listed.
+#[derive(Debug, Clone, Copy)]
+enum Simple {
+    Ball(Ball),
+    Plane(HalfSpace),
+    Not,
 }
 
 /// A shape where it stands.
@@ -75,6 +94,11 @@ impl Ready {
             surface,
             // A mesh finds out by looking at all its edges: only where it matters.
             is_closed: surface.has_medium() && shape.geometry.is_closed(),
+            simple: match &shape.geometry {
+                Geometry::Sphere(sphere) => Simple::Ball(Ball::new(sphere)),
+                Geometry::Plane(plane) => Simple::Plane(HalfSpace::new(plane)),
+                _ => Simple::Not,
+            },
             albedo,
             second,
         }
@@ -117,7 +141,14 @@ impl Prepared {
     /// The nearest hit with 0 < t < `t_max`.
     #[must_use]
     pub fn nearest(&self, ray: &Ray, t_max: f64) -> Option<Hit> {
-        let mut best: Option<Hit> = None;
+        let best = self.listed.nearest_of(ray, t_max);
+        let best = best.map(|(t, item)| Hit { t, item, part: 0 });
+        self.nearest_unlisted(ray, t_max, best)
+    }
+
+    /// The nearest hit, where that of the listed shapes is known.
+    fn nearest_unlisted(&self, ray: &Ray, t_max: f64, known: Option<Hit>) -> Option<Hit> {
+        let mut best = known;
         let mut consider = |item: u32, to: f64| {
             let (ready, local) = self.local(item, ray);
             match ready.primitive.nearest(&local, to) {
@@ -129,7 +160,7 @@ impl Prepared {
                 _ => to,
             }
         };
-        let mut to = t_max;
+        let mut to = known.map_or(t_max, |hit| hit.t.next_up().min(t_max));
         for &item in &self.unbounded {
             to = consider(item, to);
         }
@@ -140,6 +171,10 @@ impl Prepared {
     /// Whether there is a hit with 0 < t < `t_max` among some items.
     #[must_use]
     pub fn any(&self, ray: &Ray, t_max: f64, which: Which) -> bool {
+        self.listed.meets(ray, t_max, which) || self.any_unlisted(ray, t_max, which)
+    }
+
+    fn any_unlisted(&self, ray: &Ray, t_max: f64, which: Which) -> bool {
         let meets = |item: u32| {
             let (ready, local) = self.local(item, ray);
             ready.is_asked(which) && ready.primitive.nearest(&local, t_max).is_some()
@@ -169,6 +204,7 @@ impl Prepared {
                 });
             }
         };
+        self.listed.items(which).for_each(&mut collect);
         self.unbounded.iter().for_each(|&item| collect(item));
         // From the beginning of the ray: the box of a flat shape may end before
         // its hit does, by rounding.
@@ -209,6 +245,140 @@ impl Prepared {
             surface.place(&self.placements[item.placement as usize]);
         }
         surface
+    }
+
+    /// The nearest hits with 0 < t < `t_max` of the `asked` rays of a register; for
+    /// others it answers anything. Listed shapes that are no candidates are not asked.
+    #[inline(always)]
+    pub fn nearest_in_lanes<L: Lanes>(
+        &self,
+        rays: &Rays<L>,
+        t_max: f64,
+        asked: L::Mask,
+        among: &Candidates,
+    ) -> LaneHits<L::Real> {
+        let hits = self.listed.nearest(rays, rays.lanes.splat(t_max), among);
+        if self.lists_all() { hits } else { self.nearest_lane_by_lane(rays, t_max, asked, hits) }
+    }
+
+    #[inline(never)]
+    fn nearest_lane_by_lane<L: Lanes>(
+        &self,
+        rays: &Rays<L>,
+        t_max: f64,
+        asked: L::Mask,
+        hits: LaneHits<L::Real>,
+    ) -> LaneHits<L::Real> {
+        let (mut t, mut item, mut part) = ([0.0; MOST], [0.0; MOST], [0.0; MOST]);
+        hits.t.store(&mut t);
+        hits.item.store(&mut item);
+        for k in lanes_of(asked.bits()) {
+            let known = (item[k] >= 0.0).then(|| Hit { t: t[k], item: item[k] as u32, part: 0 });
+            if let Some(hit) = self.nearest_unlisted(&rays.lane(k), t_max, known) {
+                (t[k], item[k], part[k]) = (hit.t, f64::from(hit.item), f64::from(hit.part));
+            }
+        }
+        let lanes = rays.lanes;
+        LaneHits { t: lanes.load(&t), item: lanes.load(&item), part: lanes.load(&part) }
+    }
+
+    /// Which of the `asked` rays of a register hit something with 0 < t < `t_max`
+    /// among some items. Listed shapes that are no candidates are not asked.
+    #[inline(always)]
+    pub fn any_in_lanes<L: Lanes>(
+        &self,
+        rays: &Rays<L>,
+        t_max: f64,
+        asked: L::Mask,
+        which: Which,
+        among: &Candidates,
+    ) -> L::Mask {
+        let met = self.listed.any(rays, t_max, which, among) & asked;
+        if self.lists_all() {
+            return met;
+        }
+        self.any_lane_by_lane(rays, t_max, asked, which, met)
+    }
+
+    #[inline(never)]
+    fn any_lane_by_lane<L: Lanes>(
+        &self,
+        rays: &Rays<L>,
+        t_max: f64,
+        asked: L::Mask,
+        which: Which,
+        met: L::Mask,
+    ) -> L::Mask {
+        let mut bits = met.bits();
+        for k in lanes_of((asked & !met).bits()) {
+            bits |= u32::from(self.any_unlisted(&rays.lane(k), t_max, which)) << k;
+        }
+        rays.lanes.mask(bits)
+    }
+
+    /// The points of hits that a register of rays has with one item, if it is one
+    /// that is met in lanes; [`expand`](Self::expand) gives the same, one by one.
+    #[inline(always)]
+    pub fn points_in_lanes<L: Lanes>(
+        &self,
+        rays: &Rays<L>,
+        t: L::Real,
+        item: u32,
+    ) -> Option<LanePoints<L::Real>> {
+        self.listed.contacts(item, rays, t)
+    }
+
+    /// In which lanes a plane's checker shows its second colour; `None` where the item is
+    /// no plane that is met in lanes, or where doubles do not tell its squares apart.
+    #[inline(always)]
+    pub fn squares_in_lanes<L: Lanes>(
+        &self,
+        lanes: L,
+        item: u32,
+        points: &LanePoints<L::Real>,
+        checker: &Checker,
+    ) -> Option<L::Mask> {
+        let (first, second) = self.listed.plane(item)?.squares(lanes, &points.point, checker);
+        checker::second(lanes, first, second)
+    }
+
+    /// Whether [`points_in_lanes`](Self::points_in_lanes) knows the item.
+    #[must_use]
+    pub fn is_listed(&self, item: u32) -> bool {
+        self.listed.is_listed(item)
+    }
+
+    /// What rays may meet that start at a point and whose angle with an axis of
+    /// length 1 has at least that cosine.
+    #[must_use]
+    pub fn candidates_in_cone(&self, apex: &Point, axis: &Vector, cosine: f64) -> Candidates {
+        self.listed.in_cone(apex, axis, cosine)
+    }
+
+    /// What rays may meet that start in a ball and go to a goal. If all leave the
+    /// surface of an item as [`SurfacePoint::leave`] has it, on the side of a unit normal,
+    /// that is `leaving`.
+    #[must_use]
+    pub fn candidates_between(
+        &self,
+        centre: &Point,
+        radius: f64,
+        goal: &Goal,
+        leaving: Option<(u32, Vector)>,
+    ) -> Candidates {
+        self.listed.between(centre, radius, goal, leaving)
+    }
+
+    /// Whether there is nothing but what is met in lanes.
+    fn lists_all(&self) -> bool {
+        self.bounded.is_empty() && self.unbounded.is_empty()
+    }
+
+    /// The two colours of an item; the same where it has no checker.
+    #[must_use]
+    pub fn albedos(&self, item: u32) -> [[f64; 3]; 2] {
+        let ready = &self.shapes[self.items[item as usize].shape as usize];
+        [ready.albedo, ready.second]
     }
 
     /// The items filled with a medium that `point` is in.
@@ -315,6 +485,11 @@ impl Builder {
         let (mut bounded, mut boxes) = (Vec::new(), Vec::new());
         let (mut unbounded, mut solids) = (Vec::new(), Vec::new());
         let mut coarsest = 0.0_f64;
+        let mut listed = Listed::default();
+        let is_ball = |item: &&Item| {
+            item.placement == 0 && matches!(shapes[item.shape as usize].simple, Simple::Ball(_))
+        };
+        let lists_balls = items.iter().filter(is_ball).take(MOST_BALLS + 1).count() <= MOST_BALLS;
         for (i, item) in (0..).zip(&items) {
             let ready = &shapes[item.shape as usize];
             let placement = &placements[item.placement as usize];
@@ -329,12 +504,23 @@ impl Builder {
                 0 => local,
                 _ => placement.bounds(&local),
             });
+            let is_transparent = ready.surface.is_transparent();
             match bounds.filter(is_finite) {
+                Some(_) if lists_balls && is_ball(&item) => {
+                    if let Simple::Ball(ball) = ready.simple {
+                        listed.add_ball(i, ball, is_transparent);
+                    }
+                }
                 Some(bounds) => {
                     bounded.push(i);
                     boxes.push(bounds);
                 }
-                None => unbounded.push(i),
+                None => match ready.simple {
+                    Simple::Plane(plane) if item.placement == 0 && listed.has_room_for_plane() => {
+                        listed.add_plane(i, plane, is_transparent);
+                    }
+                    _ => unbounded.push(i),
+                },
             }
             if ready.is_closed {
                 solids.push(i);
@@ -346,6 +532,7 @@ impl Builder {
             shapes,
             placements,
             items,
+            listed,
             bounded,
             hierarchy,
             unbounded,
