@@ -1,12 +1,14 @@
 //! Cells of a checker along one coordinate, and of two together.
 
+use crate::lanes::{Lanes, Mask, Real};
 use crate::primitive::Cell;
+
+const LARGEST: f64 = 4_503_599_627_370_496.0; // 2^52
 
 /// Whether floor(x) is odd; `None` where x is so large that doubles have no
 /// fractions, or not a number.
 #[inline]
 fn odd(x: f64) -> Option<bool> {
-    const LARGEST: f64 = 4_503_599_627_370_496.0; // 2^52
     // The remainder is exact.
     (x.abs() <= LARGEST).then(|| libm::floor(x) % 2.0 != 0.0)
 }
@@ -19,6 +21,26 @@ pub(crate) fn cell(i: f64, j: f64) -> Cell {
         (Some(_), Some(_)) => Cell::Second,
         _ => Cell::Mixed,
     }
+}
+
+/// In which lanes two coordinates, each in cells, are in a cell of the second
+/// kind; `None` where one of them is mixed.
+#[inline(always)]
+pub(crate) fn second<L: Lanes>(lanes: L, i: L::Real, j: L::Real) -> Option<L::Mask> {
+    let largest = lanes.splat(LARGEST);
+    let is_told = i.abs().le(largest) & j.abs().le(largest);
+    if (!is_told).any() {
+        return None;
+    }
+    let [i, j] = [odd_lanes(i), odd_lanes(j)];
+    Some((i & !j) | (j & !i))
+}
+
+/// Whether floor(x) is odd.
+#[inline(always)]
+fn odd_lanes<R: Real>(x: R) -> R::Mask {
+    let half = x.floor() * 0.5;
+    !half.floor().eq(half)
 }
 
 /// The angle of (x, y) around the origin in degrees, from 0 up to below 360; 0

@@ -32,14 +32,18 @@ mod bvh;
 mod checker;
 mod crossing;
 mod hit;
+mod listed;
 mod near;
 mod prepared;
 mod primitive;
+mod rays;
 mod settings;
 mod shapes;
 
 use crossing::Crossing;
 pub mod lanes;
 pub use hit::{Hit, SurfacePoint};
+pub use listed::{Candidates, Goal, LaneHits, LanePoints};
 pub use prepared::{Prepared, Which};
+pub use rays::Rays;
 pub use settings::{Culling, KernelSettings};

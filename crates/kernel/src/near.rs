@@ -57,7 +57,7 @@ impl Near {
 /// The direction, times a power of two where its square would be out of range,
 /// and that power.
 #[inline]
-fn ordinary(direction: &Vector) -> (Vector, f64) {
+pub(crate) fn ordinary(direction: &Vector) -> (Vector, f64) {
     const LEAST: f64 = 1e-100;
     const GREATEST: f64 = 1e100;
     let largest = direction.amax();

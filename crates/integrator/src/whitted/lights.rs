@@ -10,22 +10,22 @@ use lancer_scene::{Beam, Falloff, Light, Scene, Shadows};
 /// The lights of a scene, in its order.
 #[derive(Debug)]
 pub(super) struct Lights {
-    lights: Vec<Source>,
+    pub(super) lights: Vec<Source>,
     shadows: Shadows,
 }
 
 /// A light made ready.
 #[derive(Debug)]
-struct Source {
-    brightness: f64,
-    place: From,
-    falloff: Falloff,
-    beam: Option<Cone>,
+pub(super) struct Source {
+    pub(super) brightness: f64,
+    pub(super) place: From,
+    pub(super) falloff: Falloff,
+    pub(super) beam: Option<Cone>,
 }
 
 /// Where light comes from.
 #[derive(Debug)]
-enum From {
+pub(super) enum From {
     Point(Point),
     /// The direction to a sun, of length 1.
     Direction(Vector),
@@ -33,7 +33,7 @@ enum From {
 
 /// The cone of a spot.
 #[derive(Debug)]
-struct Cone {
+pub(super) struct Cone {
     axis: Vector,
     /// The cosines of its angles.
     inner: f64,
@@ -50,7 +50,7 @@ impl Cone {
 
     /// The fraction of the light in a direction of length 1 away from the spot:
     /// between the angles a smooth step of the cosine.
-    fn share(&self, direction: &Vector) -> f64 {
+    pub(super) fn share(&self, direction: &Vector) -> f64 {
         let cosine = self.axis.dot(direction);
         if cosine >= self.inner {
             1.0
@@ -163,6 +163,19 @@ impl Lights {
         if prepared.any(ray, t_max, Which::Opaque) {
             return [0.0; 3];
         }
+        self.through(prepared, ray, t_max, media, counts, place)
+    }
+
+    /// The same where nothing opaque is in the way.
+    pub(super) fn through(
+        &self,
+        prepared: &Prepared,
+        ray: &Ray,
+        t_max: f64,
+        media: &Media,
+        counts: &mut RayCounts,
+        place: Place,
+    ) -> Rgb64 {
         if !prepared.has_transparent() {
             return [1.0; 3];
         }

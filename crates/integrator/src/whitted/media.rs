@@ -8,6 +8,10 @@ pub(super) struct Media {
 }
 
 impl Media {
+    pub(super) const fn is_empty(&self) -> bool {
+        self.inside.is_empty()
+    }
+
     pub(super) const fn new(inside: Vec<u32>) -> Self {
         Self { inside }
     }

@@ -6,6 +6,7 @@ mod fresnel;
 mod lights;
 mod media;
 mod stops;
+mod tile;
 mod tracer;
 mod view;
 
@@ -105,8 +106,8 @@ impl Engine for Whitted {
         warnings
     }
 
-    fn prepare<'s>(&'s self, scene: &'s Scene, _kernel: &KernelSettings) -> Box<dyn Tracer + 's> {
-        Box::new(tracer::WhittedTracer::new(scene, self.cutoff))
+    fn prepare<'s>(&'s self, scene: &'s Scene, kernel: &KernelSettings) -> Box<dyn Tracer + 's> {
+        Box::new(tracer::WhittedTracer::new(scene, self.cutoff, kernel))
     }
 }
 

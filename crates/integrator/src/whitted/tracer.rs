@@ -4,8 +4,8 @@ use super::media::{Media, medium, transmittance};
 use super::stops::Stop;
 use super::view::View;
 use crate::{RayCounts, Rgb, Tracer};
-use lancer_film::LayerPixel;
-use lancer_kernel::{Prepared, SurfacePoint};
+use lancer_film::{LayerPixel, Window};
+use lancer_kernel::{KernelSettings, Prepared, SurfacePoint};
 use lancer_math::{Ray, Vector};
 use lancer_scene::Scene;
 use std::cmp::Ordering;
@@ -34,11 +34,12 @@ pub(super) const MOST_RAYS: u32 = 20_000;
 
 /// The engine made ready for a scene.
 pub(super) struct WhittedTracer {
-    view: View,
-    prepared: Prepared,
-    lights: Lights,
-    background: Rgb64,
-    cutoff: f64,
+    pub(super) view: View,
+    pub(super) prepared: Prepared,
+    pub(super) lights: Lights,
+    pub(super) background: Rgb64,
+    pub(super) cutoff: f64,
+    pub(super) kernel: KernelSettings,
     /// The solids that the eye is in.
     around_eye: Media,
 }
@@ -101,7 +102,7 @@ struct Sum<'a> {
 }
 
 impl WhittedTracer {
-    pub(super) fn new(scene: &Scene, cutoff: f64) -> Self {
+    pub(super) fn new(scene: &Scene, cutoff: f64, kernel: &KernelSettings) -> Self {
         let view = View::new(&scene.camera);
         let prepared = Prepared::new(scene);
         let around_eye =
@@ -111,6 +112,7 @@ impl WhittedTracer {
             lights: Lights::new(scene),
             background: scene.background.get(),
             cutoff,
+            kernel: *kernel,
             prepared,
             around_eye,
         }
@@ -130,14 +132,31 @@ impl WhittedTracer {
         let (ray, media) = self.primary(x, y);
         let first =
             Pending { ray, share: [1.0; 3], media, depth: 0, number: 0, kind: Kind::Primary };
+        self.sum(first, [0.0; 3], (x, y), counts)
+    }
+
+    /// The radiance of a pixel that is known but for what its only ray sees, which
+    /// has left the last of so many mirrors.
+    pub(super) fn go_on(
+        &self,
+        (ray, share, depth, kind): (Ray, Rgb64, u32, Kind),
+        radiance: Rgb64,
+        place: Place,
+        counts: &mut RayCounts,
+    ) -> Rgb64 {
+        let next = Pending { ray, share, media: Media::default(), depth, number: depth, kind };
+        self.sum(next, radiance, place, counts)
+    }
+
+    fn sum(&self, first: Pending, radiance: Rgb64, place: Place, counts: &mut RayCounts) -> Rgb64 {
         let mut sum = Sum {
-            radiance: [0.0; 3],
+            radiance,
             pending: BinaryHeap::new(),
             left: 0.0,
-            rays: 0,
+            rays: first.number,
             given_up: 0.0,
             counts,
-            place: (x, y),
+            place,
         };
         self.follow(first, &mut sum);
         // The largest shares first, and until all that are left together are small
@@ -154,7 +173,7 @@ impl WhittedTracer {
         // Without rays nothing is left, whatever rounding has made of the sum.
         let left = if sum.pending.is_empty() { 0.0 } else { sum.left };
         if left + sum.given_up > self.cutoff {
-            sum.counts.troubles.given_up.at((x, y));
+            sum.counts.troubles.given_up.at(place);
         }
         sum.radiance
     }
@@ -305,7 +324,7 @@ impl<'a> Seen<'a> {
 
 /// What a ray comes from.
 #[derive(Clone, Copy)]
-enum Kind {
+pub(super) enum Kind {
     Primary,
     Reflected,
     Transmitted,
@@ -352,6 +371,21 @@ impl Tracer for WhittedTracer {
         }
         counts.troubles.not_finite.at((x, y));
         [0.0; 3]
+    }
+
+    fn tile(&self, tile: Window, pixels: &mut [Rgb], counts: &mut RayCounts) {
+        // What begins in a medium is followed alone.
+        let begins_in_air = match self.view.eye() {
+            Some(_) => self.around_eye.is_empty(),
+            None => !self.prepared.has_transparent(),
+        };
+        if begins_in_air {
+            return self.stages(tile, pixels, counts);
+        }
+        for (pixel, index) in pixels.iter_mut().zip(0..) {
+            let (x, y) = (tile.x + index % tile.width, tile.y + index / tile.width);
+            *pixel = self.pixel(x, y, counts);
+        }
     }
 
     fn first_hit(&self, x: u32, y: u32) -> Option<LayerPixel> {

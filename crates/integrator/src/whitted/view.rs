@@ -1,3 +1,5 @@
+use super::tile::units;
+use lancer_kernel::lanes::{Lanes, Vectors};
 use lancer_math::{Point, Ray, Vector, sin_cos_degrees, unit};
 use lancer_scene::{Camera, Projection};
 
@@ -57,6 +59,28 @@ impl View {
         }
         let direction = self.ahead + (sideward + upward);
         Ray::new(self.origin, unit(direction).unwrap_or(self.axis))
+    }
+
+    /// The same for several places: a lane has the bits of [`ray`](Self::ray).
+    #[inline(always)]
+    pub(super) fn rays<L: Lanes>(
+        &self,
+        lanes: L,
+        x: L::Real,
+        y: L::Real,
+    ) -> (Vectors<L::Real>, Vectors<L::Real>) {
+        let [right, up, ahead, axis] = [&self.right, &self.up, &self.ahead, &self.axis].map(
+            #[inline(always)]
+            |v| Vectors::splat(lanes, v),
+        );
+        let origin = Vectors::splat_point(lanes, &self.origin);
+        let half = lanes.splat(self.half_pixel);
+        let sideward = right * ((x * 2.0 - self.px_width) * half);
+        let upward = up * ((lanes.splat(self.px_height) - y * 2.0) * half);
+        if self.is_parallel {
+            return (origin + (sideward + upward), ahead);
+        }
+        (origin, units(lanes, &(ahead + (sideward + upward)), &axis))
     }
 
     /// Where all rays start; `None` for parallel ones.

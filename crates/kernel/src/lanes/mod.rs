@@ -45,12 +45,14 @@
 //! ```
 
 mod one;
+mod vectors;
 mod wide;
 
 use fearless_simd::Level;
 pub use one::One;
 use std::fmt::Debug;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
+pub use vectors::{Vectors, larger, smaller};
 pub use wide::Wide;
 
 /// How many lanes there are, and the proof that the processor has them.

@@ -7,21 +7,53 @@
 //! Computation of 2 x 2 Determinants*, 2013). All hold as long as no product
 //! leaves the range of a double, downwards with its last bits.
 
+use crate::lanes::{Real, Vectors};
 use lancer_math::Vector;
-
-/// The rounded sum, and the exact sum minus it.
-#[inline]
-pub(crate) fn two_sum(a: f64, b: f64) -> (f64, f64) {
-    let sum = a + b;
-    let back = sum - a;
-    (sum, (a - (sum - back)) + (b - back))
-}
 
 /// The rounded product, and the exact product minus it.
 #[inline]
 pub(crate) fn two_product(a: f64, b: f64) -> (f64, f64) {
     let product = a * b;
     (product, a.mul_add(b, -product))
+}
+
+/// The rounded sums, and the exact sums minus those.
+#[inline(always)]
+pub(crate) fn two_sums<R: Real>(a: R, b: R) -> (R, R) {
+    let sum = a + b;
+    let back = sum - a;
+    (sum, (a - (sum - back)) + (b - back))
+}
+
+/// [`two_product`] in lanes.
+#[inline(always)]
+pub(crate) fn two_products<R: Real>(a: R, b: R) -> (R, R) {
+    let product = a * b;
+    (product, a.mul_add(b, -product))
+}
+
+/// [`stepped`](crate::near::stepped) in lanes: origin - centre + t direction.
+#[inline(always)]
+pub(crate) fn steps<R: Real>(
+    origin: &Vectors<R>,
+    centre: &Vectors<R>,
+    t: R,
+    direction: &Vectors<R>,
+) -> Vectors<R> {
+    Vectors {
+        x: moved(origin.x, centre.x, t, direction.x),
+        y: moved(origin.y, centre.y, t, direction.y),
+        z: moved(origin.z, centre.z, t, direction.z),
+    }
+}
+
+#[inline(always)]
+fn moved<R: Real>(o: R, c: R, t: R, d: R) -> R {
+    let (difference, lost) = two_sums(o, -c);
+    let (step, step_lost) = two_products(t, d);
+    // The sum of both may cancel; what it loses is small against what is left.
+    let (sum, sum_lost) = two_sums(difference, step);
+    sum + (sum_lost + (lost + step_lost))
 }
 
 /// a b - c d, of which cancellation takes no digits.
@@ -87,7 +119,7 @@ mod tests {
                 near.clamp(-(1 << 52), 1 << 52) as i64
             };
             let [x, y, z, w] = [a, b, c, d].map(|i| i as f64);
-            let (sum, lost) = two_sum(x, y);
+            let (sum, lost) = two_sums(x, y);
             assert_eq!(sum as i128 + lost as i128, i128::from(a) + i128::from(b), "case {case}");
             let (product, lost) = two_product(x, y);
             let exact = i128::from(a) * i128::from(b);

@@ -10,8 +10,8 @@ mod exact;
 mod flat;
 mod frame;
 mod mesh;
-mod plane;
-mod sphere;
+pub(crate) mod plane;
+pub(crate) mod sphere;
 #[cfg(test)]
 mod testing;
 mod tetrahedron;

@@ -12,15 +12,17 @@ use super::frame::Frame;
 use crate::Crossing;
 use crate::checker;
 use crate::crossing::Crossings;
+use crate::lanes::{Lanes, One, Real, Vectors, larger};
 use crate::primitive::{Cell, Contact, Primitive};
+use crate::rays::Rays;
 use lancer_math::{Bounds, Point, Ray, Vector, unit};
 use lancer_scene::{Checker, Plane};
 
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct HalfSpace {
-    origin: Point,
+    pub(crate) origin: Point,
     /// With its largest component in [1, 2), exact.
-    normal: Vector,
+    pub(crate) normal: Vector,
     frame: Frame,
 }
 
@@ -38,33 +40,100 @@ impl HalfSpace {
 /// n . x of three terms err by up to 4 u |n| |x|, in Euclidean lengths, and
 /// rounding the result by u for each coordinate. In terms of the largest
 /// coordinates this is below 9 u (|p| + |origin|).
-#[inline]
-pub(crate) fn put_on_plane(p: &Point, origin: &Point, normal: &Vector) -> (Point, f64) {
-    let off = (p - origin).dot(normal) / normal.norm_squared();
-    let point = p - normal * off;
+#[inline(always)]
+fn onto_plane<R: Real>(
+    p: &Vectors<R>,
+    origin: &Vectors<R>,
+    normal: &Vectors<R>,
+    squared: R,
+) -> (Vectors<R>, R) {
+    let off = (*p - *origin).dot(normal) / squared;
+    let point = normal.mul_add(-off, *p);
     // Not of the point alone: where it is near the origin of the world, what was
     // subtracted may be larger than what is left.
-    let size = p.coords.amax().max(point.coords.amax()) + origin.coords.amax();
-    (point, 8.0 * f64::EPSILON * size)
+    let size = larger(p.amax(), point.amax()) + origin.amax();
+    (point, size * (8.0 * f64::EPSILON))
+}
+
+/// A plane for each lane.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct HalfSpaces<R> {
+    origin: Vectors<R>,
+    normal: Vectors<R>,
+    unit: Vectors<R>,
+}
+
+impl<R: Real> HalfSpaces<R> {
+    #[inline(always)]
+    pub(crate) fn splat<L: Lanes<Real = R>>(lanes: L, plane: &HalfSpace) -> Self {
+        Self {
+            origin: Vectors::splat_point(lanes, &plane.origin),
+            normal: Vectors::splat(lanes, &plane.normal),
+            unit: Vectors::splat(lanes, &plane.frame.axis),
+        }
+    }
+
+    /// How far the planes are along their normals, and how fast the rays go along
+    /// them: the quotient is where they cross.
+    #[inline(always)]
+    pub(crate) fn slopes<L: Lanes<Real = R>>(&self, rays: &Rays<L>) -> (R, R) {
+        let ahead = self.normal.dot(&(self.origin - rays.origin));
+        (ahead, self.normal.dot(&rays.direction))
+    }
+
+    /// The points of crossings, their errors and the unit normals.
+    #[inline(always)]
+    pub(crate) fn contacts<L: Lanes<Real = R>>(
+        &self,
+        rays: &Rays<L>,
+        t: R,
+    ) -> (Vectors<R>, R, Vectors<R>) {
+        let at = rays.direction.mul_add(t, rays.origin);
+        let (point, error) =
+            onto_plane(&at, &self.origin, &self.normal, self.normal.norm_squared());
+        (point, error, self.unit)
+    }
+}
+
+impl HalfSpace {
+    /// In squares of a checker, counted from its origin.
+    #[inline(always)]
+    pub(crate) fn squares<L: Lanes>(
+        &self,
+        lanes: L,
+        point: &Vectors<L::Real>,
+        checker: &Checker,
+    ) -> (L::Real, L::Real) {
+        let from_origin = *point - Vectors::splat_point(lanes, &self.origin);
+        let length = lanes.splat(checker.length.get());
+        let [first, second] = [&self.frame.first, &self.frame.second].map(
+            #[inline(always)]
+            |axis| Vectors::splat(lanes, axis).dot(&from_origin) / length,
+        );
+        (first, second)
+    }
 }
 
 impl Primitive for HalfSpace {
     #[inline]
     fn crossings(&self, ray: &Ray) -> Crossings {
-        let ahead = self.normal.dot(&(self.origin - ray.origin));
+        let (ahead, slope) = HalfSpaces::splat(One, self).slopes(&Rays::splat(One, ray));
         let mut crossings = Crossings::NONE;
-        crossings.add(ahead / self.normal.dot(&ray.direction), 0);
+        crossings.add(ahead / slope, 0);
         crossings
     }
 
     fn contact(&self, ray: &Ray, crossing: &Crossing) -> Contact {
-        let (point, error) = put_on_plane(&ray.at(crossing.t), &self.origin, &self.normal);
-        Contact { point, error, normal: self.frame.axis, shading: self.frame.axis }
+        let planes = HalfSpaces::splat(One, self);
+        let (point, error, normal) = planes.contacts(&Rays::splat(One, ray), crossing.t);
+        let normal = normal.lane(0);
+        Contact { point: point.lane(0).into(), error, normal, shading: normal }
     }
 
     fn cell(&self, contact: &Contact, _part: u32, checker: &Checker) -> Cell {
-        let at = self.frame.local(&(contact.point - self.origin)) / checker.length.get();
-        checker::cell(at.x, at.y)
+        let point = Vectors::splat_point(One, &contact.point);
+        let (first, second) = self.squares(One, &point, checker);
+        checker::cell(first, second)
     }
 
     fn bounds(&self) -> Option<Bounds> {

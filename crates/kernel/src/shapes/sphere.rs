@@ -14,91 +14,179 @@
 //! Touching (|p| = r) counts as two crossings at one place. A radius or a distance
 //! whose square is no number is beyond what can be met.
 
-use super::exact::{two_product, two_sum};
+use super::exact::{steps, two_products, two_sums};
 use crate::Crossing;
 use crate::checker;
 use crate::crossing::Crossings;
-use crate::near::{Near, stepped};
+use crate::lanes::{Lanes, Mask, One, Real, Vectors};
 use crate::primitive::{Cell, Contact, Primitive};
+use crate::rays::{Pairs, Rays};
 use lancer_math::{Bounds, Point, Ray, Vector};
 use lancer_scene::{Checker, Sphere};
 
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Ball {
-    centre: Point,
-    radius: f64,
+    pub(crate) centre: Point,
+    pub(crate) radius: f64,
+}
+
+/// A ball for each lane.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Balls<R> {
+    pub(crate) centre: Vectors<R>,
+    pub(crate) radius: R,
+}
+
+impl<R: Real> Balls<R> {
+    #[inline(always)]
+    pub(crate) fn splat<L: Lanes<Real = R>>(lanes: L, ball: &Ball) -> Self {
+        Self { centre: Vectors::splat_point(lanes, &ball.centre), radius: lanes.splat(ball.radius) }
+    }
+
+    /// The lanes in which [`crossings`](Self::crossings) may find something ahead: never
+    /// too few.
+    ///
+    /// With c from the centre to the origin, b = c . d, and e below 8 u for all
+    /// rounding errors of these products (u is half of EPSILON): the squared distance of the
+    /// line is c^2 - b^2 / d^2 to within 4 e c^2, and where it is more than r^2 +
+    /// 2^-44 c^2, the quadratic has no root, whose own terms err by less than that.
+    /// Where the ray goes away (b > 0) and the origin is outside by more than 2^-40
+    /// c^2, both crossings are behind it. What is so small that squares lose digits is
+    /// not left out.
+    #[inline(always)]
+    pub(crate) fn may_meet<L: Lanes<Real = R>>(&self, rays: &Rays<L>) -> R::Mask {
+        const OUTSIDE: f64 = 1.0 - 9.094_947_017_729_282e-13; // 1 - 2^-40
+        let from_centre = rays.origin - self.centre;
+        let b = from_centre.dot(&rays.tame);
+        let c2 = from_centre.norm_squared();
+        let leaves =
+            b.gt(rays.lanes.splat(0.0)) & (c2 * OUTSIDE).gt(self.radius * self.radius + 1e-280);
+        !(self.passes(rays, b, c2) | leaves)
+    }
+
+    /// The same for something ahead or behind.
+    #[inline(always)]
+    fn may_meet_line<L: Lanes<Real = R>>(&self, rays: &Rays<L>) -> R::Mask {
+        let from_centre = rays.origin - self.centre;
+        !self.passes(rays, from_centre.dot(&rays.tame), from_centre.norm_squared())
+    }
+
+    /// Not where something is not a number.
+    #[inline(always)]
+    fn passes<L: Lanes<Real = R>>(&self, rays: &Rays<L>, b: R, c2: R) -> R::Mask {
+        const SLACK: f64 = 5.684_341_886_080_802e-14; // 2^-44
+        ((c2 * (1.0 - SLACK) - self.radius * self.radius) * rays.squared).gt(b * b + 1e-80)
+    }
+
+    /// Where the rays cross the balls.
+    #[inline(always)]
+    pub(crate) fn crossings<L: Lanes<Real = R>>(&self, rays: &Rays<L>) -> Pairs<R> {
+        let lanes = rays.lanes;
+        let (zero, not) = (lanes.splat(0.0), lanes.splat(f64::NAN));
+        let direction = &rays.tame;
+        let from_centre = rays.origin - self.centre;
+        // An origin within a few times the size of the ball stays where it is: its
+        // rounding is small already.
+        let is_near = from_centre.amax().le(self.radius * 2.0);
+        let shift = -(from_centre.dot(direction) * rays.inverse);
+        let shift = is_near.select(zero, shift);
+        let moved = steps(&rays.origin, &self.centre, shift, direction);
+        let origin = Vectors::select(is_near, from_centre, moved);
+        // What is left along the ray, all of it where the origin was not moved.
+        let along = origin.dot(direction) * rays.inverse;
+        let p = direction.mul_add(-along, origin).norm();
+        let under_root = (self.radius - p) * (self.radius + p);
+        let half = (under_root * rays.inverse).sqrt();
+        let middle = shift - along;
+        let far = middle + half.copysign(middle);
+        let close = middle - half.copysign(middle);
+        let cancels = half.gt(middle.abs() * 0.5);
+        let close = if cancels.any() {
+            cancels.select(self.excess(lanes, &rays.origin) / (rays.squared * far), close)
+        } else {
+            close
+        };
+        // Not for NaN either.
+        let meets = under_root.ge(zero);
+        let pairs = Pairs::sorted(far * rays.unit, close * rays.unit);
+        Pairs { near: meets.select(pairs.near, not), far: meets.select(pairs.far, not) }
+    }
+
+    /// The squared distances of points from the centre minus that of the surface.
+    #[inline(always)]
+    fn excess<L: Lanes<Real = R>>(&self, lanes: L, point: &Vectors<R>) -> R {
+        let (square, square_lost) = two_products(self.radius, self.radius);
+        let (mut sum, mut lost) = (-square, -square_lost);
+        let two = lanes.splat(2.0);
+        for (p, c) in [(point.x, self.centre.x), (point.y, self.centre.y), (point.z, self.centre.z)]
+        {
+            let (off, off_lost) = two_sums(p, -c);
+            let (square, square_lost) = two_products(off, off);
+            let (next, next_lost) = two_sums(sum, square);
+            sum = next;
+            lost = lost + (next_lost + (two * off).mul_add(off_lost, square_lost));
+        }
+        sum + lost
+    }
+
+    /// The points of crossings, their errors and the unit normals.
+    ///
+    /// The direction from the centre has a length of 1 to within 4 u (u is half
+    /// of EPSILON), its product with the radius and the sum with the centre are
+    /// rounded once: below 6 u of the radius and u of the centre, and here more.
+    #[inline(always)]
+    pub(crate) fn contacts<L: Lanes<Real = R>>(
+        &self,
+        rays: &Rays<L>,
+        t: R,
+    ) -> (Vectors<R>, R, Vectors<R>) {
+        let from_centre = steps(&rays.origin, &self.centre, t, &rays.direction);
+        let length = from_centre.norm();
+        let normal = Vectors {
+            x: from_centre.x / length,
+            y: from_centre.y / length,
+            z: from_centre.z / length,
+        };
+        let point = normal.mul_add(self.radius, self.centre);
+        let error = (self.centre.amax() + self.radius) * (4.0 * f64::EPSILON);
+        (point, error, normal)
+    }
 }
 
 impl Ball {
     pub(crate) fn new(sphere: &Sphere) -> Self {
         Self { centre: sphere.centre.get(), radius: sphere.radius.get() }
     }
-
-    /// From its numbers, as [`numbers`](Self::numbers) gives them.
-    #[inline]
-    pub(crate) fn at(centre: [f64; 3], radius: f64) -> Self {
-        Self { centre: Point::from(centre), radius }
-    }
-
-    /// Its centre and radius.
-    pub(crate) fn numbers(&self) -> ([f64; 3], f64) {
-        (self.centre.coords.into(), self.radius)
-    }
-
-    /// The squared distance of a point from the centre minus that of the surface.
-    fn excess(&self, point: &Point) -> f64 {
-        let (square, square_lost) = two_product(self.radius, self.radius);
-        let (mut sum, mut lost) = (-square, -square_lost);
-        for axis in 0..3 {
-            let (off, off_lost) = two_sum(point[axis], -self.centre[axis]);
-            let (square, square_lost) = two_product(off, off);
-            let (next, next_lost) = two_sum(sum, square);
-            sum = next;
-            lost += next_lost + (square_lost + 2.0 * off * off_lost);
-        }
-        sum + lost
-    }
 }
 
 impl Primitive for Ball {
     #[inline]
     fn crossings(&self, ray: &Ray) -> Crossings {
-        let near = Near::around(ray, &self.centre, 0.5 * self.radius);
-        // What is left along the ray, all of it where the origin was not moved.
-        let d2 = near.direction.norm_squared();
-        let inverse = 1.0 / d2;
-        let along = near.origin.dot(&near.direction) * inverse;
-        let p = (near.origin - near.direction * along).norm();
-        let under_root = (self.radius - p) * (self.radius + p);
+        let (ball, rays) = (Balls::splat(One, self), Rays::splat(One, ray));
         let mut crossings = Crossings::NONE;
-        // Not for NaN either.
-        if under_root >= 0.0 {
-            let half = (under_root * inverse).sqrt();
-            let middle = near.shift - along;
-            let far = middle + half.copysign(middle);
-            let close = if half > 0.5 * middle.abs() {
-                self.excess(&ray.origin) / (d2 * far)
-            } else {
-                middle - half.copysign(middle)
-            };
-            crossings.add(far * near.unit, 0);
-            crossings.add(close * near.unit, 0);
+        if ball.may_meet_line(&rays).any() {
+            let pairs = ball.crossings(&rays);
+            crossings.add(pairs.near, 0);
+            crossings.add(pairs.far, 0);
         }
         crossings
     }
 
-    /// The direction from the centre has a length of 1 to within 4 u (u is half
-    /// of EPSILON), its product with the radius is rounded, and the sum with the
-    /// centre: 6 u of the radius and u of the centre, and here more.
-    fn contact(&self, ray: &Ray, crossing: &Crossing) -> Contact {
-        let from_centre = stepped(&ray.origin, &self.centre, crossing.t, &ray.direction);
-        let normal = from_centre / from_centre.norm();
-        Contact {
-            point: self.centre + normal * self.radius,
-            error: 4.0 * f64::EPSILON * (self.centre.coords.amax() + self.radius),
-            normal,
-            shading: normal,
+    #[inline]
+    fn nearest(&self, ray: &Ray, t_max: f64) -> Option<Crossing> {
+        let (ball, rays) = (Balls::splat(One, self), Rays::splat(One, ray));
+        if !ball.may_meet(&rays).any() {
+            return None;
         }
+        let t = ball.crossings(&rays).ahead(0.0);
+        (t > 0.0 && t < t_max).then_some(Crossing { t, part: 0 })
+    }
+
+    fn contact(&self, ray: &Ray, crossing: &Crossing) -> Contact {
+        let (ball, rays) = (Balls::splat(One, self), Rays::splat(One, ray));
+        let (point, error, normal) = ball.contacts(&rays, crossing.t);
+        let normal = normal.lane(0);
+        Contact { point: point.lane(0).into(), error, normal, shading: normal }
     }
 
     fn cell(&self, contact: &Contact, _part: u32, checker: &Checker) -> Cell {
@@ -115,7 +203,8 @@ impl Primitive for Ball {
     }
 
     fn contains(&self, point: &Point) -> bool {
-        self.excess(point) < 0.0
+        let ball = Balls::splat(One, self);
+        ball.excess(One, &Vectors::splat_point(One, point)) < 0.0
     }
 
     fn volume(&self) -> f64 {

@@ -1,0 +1,297 @@
+//! A tile's rays in stages, several at once: from the eye, then from mirror to
+//! mirror until nothing that matters is left.
+//!
+//! At each depth all rays of the tile are met with the shapes, sorted by what they
+//! met, and shaded item by item; what a mirror throws back is the next depth. A
+//! pixel has one ray at most at a time, so its sums have the order that they have
+//! when the pixel is followed alone, and the same bits. A ray that meets a transparent
+//! surface is followed alone from there on.
+
+mod buffers;
+mod light;
+mod shade;
+mod units;
+
+pub(super) use units::units;
+
+use super::tracer::{DEEPEST, Kind, WhittedTracer};
+use crate::{RayCounts, Rgb};
+use buffers::{Buffers, Bundle, Triple, load};
+use lancer_film::Window;
+use lancer_kernel::Candidates;
+use lancer_kernel::Rays;
+use lancer_kernel::lanes::{Lanes, MOST, Mask, Real, Vectors, Work, dispatch};
+use lancer_math::Vector;
+use std::cell::RefCell;
+
+thread_local! {
+    static BUFFERS: RefCell<Box<Buffers>> = RefCell::new(Buffers::new());
+}
+
+/// A tile to be rendered.
+struct Tile<'a> {
+    tracer: &'a WhittedTracer,
+    window: Window,
+    pixels: &'a mut [Rgb],
+    counts: &'a mut RayCounts,
+    buffers: &'a mut Buffers,
+}
+
+impl WhittedTracer {
+    /// The colours of the pixels of a tile, which is no larger than
+    /// [`TILE_SIDE`](crate::TILE_SIDE) squared.
+    pub(super) fn stages(&self, window: Window, pixels: &mut [Rgb], counts: &mut RayCounts) {
+        BUFFERS.with_borrow_mut(|buffers| {
+            let tile = Tile { tracer: self, window, pixels, counts, buffers };
+            dispatch(self.kernel.lanes, tile);
+        });
+    }
+}
+
+impl Work for Tile<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(mut self, lanes: L) {
+        let among = self.begin(lanes);
+        let mut among =
+            if self.tracer.kernel.culling.tile_candidates { among } else { Candidates::ALL };
+        let mut kind = Kind::Primary;
+        let mut depth = 0;
+        while self.buffers.rays.count > 0 {
+            self.meet(lanes, &among);
+            self.buffers.sort();
+            self.buffers.next.count = 0;
+            self.shade_all(lanes, depth, kind);
+            std::mem::swap(&mut self.buffers.rays, &mut self.buffers.next);
+            self.buffers.rays.pad();
+            (among, kind) = (Candidates::ALL, Kind::Reflected);
+            depth += 1;
+        }
+        self.end();
+    }
+}
+
+impl Tile<'_> {
+    /// The rays of the pixels, and what they may meet.
+    #[inline(always)]
+    fn begin<L: Lanes>(&mut self, lanes: L) -> Candidates {
+        let Window { x, y, width, height, .. } = self.window;
+        let view = &self.tracer.view;
+        let Buffers { rays, radiance, .. } = &mut *self.buffers;
+        rays.count = (width * height) as usize;
+        let steps: [f64; MOST] = std::array::from_fn(|k| k as f64);
+        let steps = lanes.load(&steps);
+        for row in 0..height {
+            let at_y = lanes.splat(f64::from(y + row) + 0.5);
+            for column in (0..width).step_by(L::WIDTH) {
+                // The last ones of a row are overwritten by the next row.
+                let at_x = steps + (f64::from(x + column) + 0.5);
+                let (origin, direction) = view.rays(lanes, at_x, at_y);
+                let at = (row * width + column) as usize;
+                origin.store(buffers::from_mut(&mut rays.origin, at));
+                direction.store(buffers::from_mut(&mut rays.direction, at));
+            }
+        }
+        for k in 0..rays.count {
+            rays.pixel[k] = k as u16;
+        }
+        rays.share.iter_mut().for_each(|share| share[..rays.count].fill(1.0));
+        radiance.iter_mut().for_each(|radiance| radiance[..rays.count].fill(0.0));
+        rays.pad();
+
+        let Some(eye) = view.eye() else { return Candidates::ALL };
+        let (left, top) = (f64::from(x), f64::from(y));
+        let (right, bottom) = (left + f64::from(width), top + f64::from(height));
+        let corners = [(left, top), (right, top), (left, bottom), (right, bottom)]
+            .map(|(x, y)| view.ray(x, y).direction);
+        let Some(axis) = lancer_math::unit(corners.iter().sum::<Vector>()) else {
+            return Candidates::ALL;
+        };
+        let cosine = corners.iter().map(|corner| corner.dot(&axis)).fold(1.0, f64::min);
+        self.tracer.prepared.candidates_in_cone(&eye, &axis, cosine)
+    }
+
+    /// What the rays meet.
+    #[inline(always)]
+    fn meet<L: Lanes>(&mut self, lanes: L, among: &Candidates) {
+        let rays = &mut self.buffers.rays;
+        for at in (0..rays.count).step_by(L::WIDTH) {
+            let asked = first_lanes(lanes, rays.count - at);
+            let register =
+                Rays::new(lanes, load(lanes, &rays.origin, at), load(lanes, &rays.direction, at));
+            let hits =
+                self.tracer.prepared.nearest_in_lanes(&register, f64::INFINITY, asked, among);
+            hits.t.store(&mut rays.t[at..]);
+            hits.item.store(&mut rays.item[at..]);
+            hits.part.store(&mut rays.part[at..]);
+        }
+        rays.pad();
+    }
+
+    /// Shades all rays, those that met the same item together.
+    #[inline(always)]
+    fn shade_all<L: Lanes>(&mut self, lanes: L, depth: u32, kind: Kind) {
+        let mut begin = 0;
+        for index in 0..self.buffers.items.len() {
+            let (item, count) = self.buffers.items[index];
+            let end = begin + usize::from(count);
+            let is_all = count as usize == self.buffers.rays.count;
+            let Buffers { rays, group, order, .. } = &mut *self.buffers;
+            if is_all {
+                std::mem::swap(rays, group);
+            } else {
+                group.gather(rays, &order[begin..end]);
+            }
+            if item < 0.0 {
+                self.miss(kind);
+            } else if self.tracer.prepared.surface(item as u32).is_transparent() {
+                self.follow_alone(depth, kind);
+            } else {
+                self.count(kind);
+                self.shade(lanes, item as u32, depth);
+            }
+            begin = end;
+        }
+    }
+
+    fn count(&mut self, kind: Kind) {
+        let count = self.buffers.group.count as u64;
+        match kind {
+            Kind::Primary => self.counts.primary += count,
+            Kind::Reflected => self.counts.reflected += count,
+            Kind::Transmitted => self.counts.transmitted += count,
+        }
+    }
+
+    /// Rays that see the background.
+    fn miss(&mut self, kind: Kind) {
+        self.count(kind);
+        let Buffers { group, radiance, .. } = &mut *self.buffers;
+        for k in 0..group.count {
+            add(radiance, group.pixel[k], group.share(k), self.tracer.background);
+        }
+    }
+
+    /// Rays whose pixels are followed alone from here on.
+    fn follow_alone(&mut self, depth: u32, kind: Kind) {
+        let Buffers { group, radiance, .. } = &mut *self.buffers;
+        for k in 0..group.count {
+            let pixel = group.pixel[k];
+            let place = self.window.place(pixel);
+            let sum = [0, 1, 2].map(|i| radiance[i][usize::from(pixel)]);
+            let sum = self.tracer.go_on(
+                (group.ray(k), group.share(k), depth, kind),
+                sum,
+                place,
+                self.counts,
+            );
+            (0..3).for_each(|i| radiance[i][usize::from(pixel)] = sum[i]);
+        }
+    }
+
+    /// Keeps what mirrors throw back, unless it does not matter.
+    #[inline(always)]
+    fn push<L: Lanes>(
+        &mut self,
+        lanes: L,
+        (origin, direction): (Vectors<L::Real>, Vectors<L::Real>),
+        share: &Vectors<L::Real>,
+        asked: L::Mask,
+        (at, depth): (usize, u32),
+    ) {
+        let zero = lanes.splat(0.0);
+        let largest = share.amax();
+        let is_finite = largest.lt(lanes.splat(f64::INFINITY));
+        if (asked & !is_finite).any() {
+            self.spoil((asked & !is_finite).bits(), at);
+        }
+        let asked = asked & is_finite & !largest.eq(zero);
+        let matters = asked & largest.gt(lanes.splat(self.tracer.cutoff));
+        if depth >= DEEPEST {
+            self.give_up(matters.bits(), at);
+            return;
+        }
+        let Buffers { group, next, .. } = &mut *self.buffers;
+        let Bundle { count, origin: to, direction: way, share: part, pixel, .. } = next;
+        pack(&origin, matters, to, *count);
+        pack(&direction, matters, way, *count);
+        pack(share, matters, part, *count);
+        for k in lancer_kernel::lanes::lanes_of(matters.bits()) {
+            pixel[*count] = group.pixel[at + k];
+            *count += 1;
+        }
+    }
+
+    /// Pixels of which nothing can be known any more.
+    #[cold]
+    fn spoil(&mut self, bits: u32, at: usize) {
+        for k in lancer_kernel::lanes::lanes_of(bits) {
+            let pixel = usize::from(self.buffers.group.pixel[at + k]);
+            self.buffers.radiance.iter_mut().for_each(|radiance| radiance[pixel] = f64::NAN);
+        }
+    }
+
+    #[cold]
+    fn give_up(&mut self, bits: u32, at: usize) {
+        for k in lancer_kernel::lanes::lanes_of(bits) {
+            let place = self.window.place(self.buffers.group.pixel[at + k]);
+            self.counts.troubles.given_up.at(place);
+        }
+    }
+
+    /// The pixels' colours.
+    fn end(&mut self) {
+        let radiance = &self.buffers.radiance;
+        for (k, pixel) in self.pixels.iter_mut().enumerate() {
+            *pixel = [radiance[0][k], radiance[1][k], radiance[2][k]].map(|v| v as f32);
+            if !pixel.iter().all(|v| v.is_finite()) {
+                self.counts.troubles.not_finite.at(self.window.place(k as u16));
+                *pixel = [0.0; 3];
+            }
+        }
+    }
+}
+
+/// Those of a mask, from one place on.
+#[inline(always)]
+fn pack<R: Real>(vectors: &Vectors<R>, mask: R::Mask, to: &mut Triple, at: usize) {
+    vectors.x.store_packed(mask, &mut to[0][at..]);
+    vectors.y.store_packed(mask, &mut to[1][at..]);
+    vectors.z.store_packed(mask, &mut to[2][at..]);
+}
+
+/// Where a pixel of a tile is in the frame.
+trait Places {
+    fn place(&self, pixel: u16) -> (u32, u32);
+}
+
+impl Places for Window {
+    fn place(&self, pixel: u16) -> (u32, u32) {
+        let pixel = u32::from(pixel);
+        (self.x + pixel % self.width, self.y + pixel / self.width)
+    }
+}
+
+/// The first lanes of a register, as many as there are rays left.
+#[inline(always)]
+fn first_lanes<L: Lanes>(lanes: L, count: usize) -> L::Mask {
+    lanes.mask(if count >= L::WIDTH { u32::MAX } else { (1 << count) - 1 })
+}
+
+/// Adds to a pixel what is seen with a share.
+#[inline(always)]
+fn add(radiance: &mut Triple, pixel: u16, share: [f64; 3], seen: [f64; 3]) {
+    for i in 0..3 {
+        // Nothing of something infinite is nothing.
+        if share[i] != 0.0 && seen[i] != 0.0 {
+            radiance[i][usize::from(pixel)] += share[i] * seen[i];
+        }
+    }
+}
+
+/// x x' + y y' + z z' in that order, as one ray alone has it.
+#[inline(always)]
+fn dot<R: Real>(a: &Vectors<R>, b: &Vectors<R>) -> R {
+    a.x * b.x + a.y * b.y + a.z * b.z
+}

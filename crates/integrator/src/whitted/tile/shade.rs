@@ -1,0 +1,219 @@
+//! Opaque surfaces: where rays meet them, what light falls there, and what a
+//! mirror throws back.
+
+use super::buffers::{Buffers, Triple, from_mut, load};
+use super::units::units;
+use super::{Tile, dot, first_lanes};
+use lancer_kernel::Rays;
+use lancer_kernel::lanes::{Lanes, Mask, Real, Vectors, larger, smaller};
+use lancer_math::{Bounds, Point, Vector};
+use lancer_scene::Pattern;
+
+/// A ball that holds all points from which a batch of rays leaves.
+pub(super) struct Around {
+    pub(super) centre: Point,
+    pub(super) radius: f64,
+    /// The normal on the side that all rays see; none where they do not see the same.
+    pub(super) side: Option<Vector>,
+}
+
+impl Around {
+    /// Around points, from each of which a ray leaves by twice its error and no
+    /// more than the largest one.
+    fn new(bounds: &Bounds, error: f64, side: Option<Vector>) -> Self {
+        let centre = bounds.centre();
+        let half = (bounds.max - centre).norm().max((bounds.min - centre).norm());
+        let radius = (half + 4.0 * error) * (1.0 + 1e-9);
+        Self { centre, radius, side }
+    }
+}
+
+impl Tile<'_> {
+    /// The rays of the group, which all met that item.
+    #[inline(always)]
+    pub(super) fn shade<L: Lanes>(&mut self, lanes: L, item: u32, depth: u32) {
+        let prepared = &self.tracer.prepared;
+        let surface = prepared.surface(item);
+        let (gloss, emission) = (surface.gloss.get(), surface.emission.get());
+        let around =
+            if prepared.is_listed(item) { self.points(lanes, item) } else { self.expand(item) };
+        if emission != [0.0; 3] {
+            let Buffers { group, radiance, .. } = &mut *self.buffers;
+            for k in 0..group.count {
+                super::add(radiance, group.pixel[k], group.share(k), emission);
+            }
+        }
+        if gloss < 1.0 || !self.tracer.kernel.culling.full_mirrors {
+            self.weigh(lanes, 1.0 - gloss);
+            self.gather(lanes, item, &around);
+            self.deliver(lanes);
+        }
+        if gloss > 0.0 {
+            self.mirror(lanes, gloss, depth);
+        }
+    }
+
+    /// Points, normals and colours of an item that is met in lanes.
+    #[inline(always)]
+    fn points<L: Lanes>(&mut self, lanes: L, item: u32) -> Around {
+        let prepared = &self.tracer.prepared;
+        let pattern = prepared.surface(item).pattern;
+        let [first, second] =
+            prepared.albedos(item).map(|albedo| Vectors::splat(lanes, &Vector::from(albedo)));
+        let Buffers { group, sights, .. } = &mut *self.buffers;
+        let infinite = lanes.splat(f64::INFINITY);
+        let mut least = Vectors { x: infinite, y: infinite, z: infinite };
+        let mut most = -least;
+        let mut largest = lanes.splat(0.0);
+        let (mut behind, mut before) = (lanes.mask(0), lanes.mask(0));
+        for at in (0..group.count).step_by(L::WIDTH) {
+            let (origin, direction) =
+                (load(lanes, &group.origin, at), load(lanes, &group.direction, at));
+            let rays = Rays::new(lanes, origin, direction);
+            let t = lanes.load(&group.t[at..]);
+            let Some(points) = prepared.points_in_lanes(&rays, t, item) else { continue };
+            let from_behind = dot(&direction, &points.normal).gt(lanes.splat(0.0));
+            let facet = Vectors::select(from_behind, -points.normal, points.normal);
+            behind = behind | from_behind;
+            before = before | !from_behind;
+            let point = points.point;
+            least = pairwise(&point, &least, smaller);
+            most = pairwise(&point, &most, larger);
+            largest = larger(points.error, largest);
+            point.store(from_mut(&mut sights.point, at));
+            points.error.store(&mut sights.error[at..]);
+            facet.store(from_mut(&mut sights.facet, at));
+            facet.store(from_mut(&mut sights.shading, at));
+
+            let albedo = match pattern {
+                Pattern::Solid => first,
+                Pattern::Checker(checker) => {
+                    match prepared.squares_in_lanes(lanes, item, &points, &checker) {
+                        Some(is_second) => Vectors::select(is_second, second, first),
+                        None => {
+                            let count = L::WIDTH.min(group.count - at);
+                            for k in at..at + count {
+                                let seen = prepared.expand(&group.ray(k), &group.hit(k));
+                                (0..3).for_each(|i| sights.albedo[i][k] = seen.albedo[i]);
+                            }
+                            continue;
+                        }
+                    }
+                }
+            };
+            albedo.store(from_mut(&mut sights.albedo, at));
+        }
+        let mut bounds = Bounds::EMPTY;
+        let mut error = 0.0_f64;
+        for k in 0..L::WIDTH {
+            let [least, most] = [least, most].map(|corner| Point::from(corner.lane(k)));
+            bounds = bounds.union(Bounds { min: least, max: most });
+            error = error.max(largest.lane(k));
+        }
+        let one_side = behind.any() != before.any();
+        let side = one_side.then(|| load(lanes, &sights.facet, 0).lane(0));
+        Around::new(&bounds, error, side)
+    }
+
+    /// The same of any other item, one by one.
+    #[inline(never)]
+    fn expand(&mut self, item: u32) -> Around {
+        let prepared = &self.tracer.prepared;
+        let Buffers { group, sights, .. } = &mut *self.buffers;
+        let put = |to: &mut Triple, k: usize, v: &Vector| {
+            (0..3).for_each(|axis| to[axis][k] = v[axis]);
+        };
+        let mut bounds = Bounds::EMPTY;
+        let mut error = 0.0_f64;
+        debug_assert!(group.item[..group.count].iter().all(|met| *met == f64::from(item)));
+        // The last register is filled.
+        for k in 0..group.count + lancer_kernel::lanes::MOST {
+            let ray = group.ray(k);
+            let seen = prepared.expand(&ray, &group.hit(k));
+            let from_behind = ray.direction.dot(&seen.normal) > 0.0;
+            let side = |normal: Vector| if from_behind { -normal } else { normal };
+            put(&mut sights.point, k, &seen.point.coords);
+            put(&mut sights.facet, k, &side(seen.normal));
+            put(&mut sights.shading, k, &side(seen.shading));
+            put(&mut sights.albedo, k, &Vector::from(seen.albedo));
+            sights.error[k] = seen.error;
+            bounds = bounds.with(seen.point);
+            error = error.max(seen.error);
+        }
+        Around::new(&bounds, error, None)
+    }
+
+    /// The shares of the matte part in the pixels.
+    #[inline(always)]
+    fn weigh<L: Lanes>(&mut self, lanes: L, matte: f64) {
+        let Buffers { group, sights, .. } = &mut *self.buffers;
+        for axis in 0..3 {
+            for at in (0..group.count).step_by(L::WIDTH) {
+                let share = lanes.load(&group.share[axis][at..]) * matte;
+                let share = share * lanes.load(&sights.albedo[axis][at..]);
+                share.store(&mut sights.matte[axis][at..]);
+            }
+        }
+    }
+
+    /// Adds what light makes of the matte part.
+    #[inline(always)]
+    fn deliver<L: Lanes>(&mut self, lanes: L) {
+        let Buffers { group, sights, radiance, .. } = &mut *self.buffers;
+        let zero = lanes.splat(0.0);
+        for axis in 0..3 {
+            let radiance = &mut radiance[axis];
+            let light = &sights.light[if sights.is_grey { 0 } else { axis }];
+            for at in (0..group.count).step_by(L::WIDTH) {
+                let share = lanes.load(&sights.matte[axis][at..]);
+                let light = lanes.load(&light[at..]);
+                // Nothing of something infinite is nothing.
+                let nothing = share.eq(zero) | light.eq(zero);
+                let seen = nothing.select(zero, share * light);
+                for k in 0..L::WIDTH.min(group.count - at) {
+                    radiance[usize::from(group.pixel[at + k])] += seen.lane(k);
+                }
+            }
+        }
+    }
+
+    /// What a mirror of that gloss throws back.
+    #[inline(always)]
+    fn mirror<L: Lanes>(&mut self, lanes: L, gloss: f64, depth: u32) {
+        for at in (0..self.buffers.group.count).step_by(L::WIDTH) {
+            let Buffers { group, sights, .. } = &*self.buffers;
+            let direction = load(lanes, &group.direction, at);
+            let (facet, normal) =
+                (load(lanes, &sights.facet, at), load(lanes, &sights.shading, at));
+            let mirrored = direction - normal * (dot(&direction, &normal) * 2.0);
+            let height = dot(&mirrored, &facet);
+            let is_below = height.lt(lanes.splat(0.0));
+            let above = mirrored - facet * (height * 2.0);
+            let mirrored = Vectors::select(is_below, above, mirrored);
+            let mirrored = units(lanes, &mirrored, &facet);
+            let away = leaving(lanes, &mirrored, &facet, lanes.load(&sights.error[at..]));
+            let origin = load(lanes, &sights.point, at) + facet * away;
+            let share = load(lanes, &group.share, at) * lanes.splat(gloss);
+            let asked = first_lanes(lanes, group.count - at);
+            self.push(lanes, (origin, mirrored), &share, asked, (at, depth));
+        }
+    }
+}
+
+/// How far along the normal rays of those directions start from their points, as
+/// [`lancer_kernel::SurfacePoint::leave`] has it.
+#[inline(always)]
+pub(super) fn leaving<L: Lanes>(
+    lanes: L,
+    direction: &Vectors<L::Real>,
+    normal: &Vectors<L::Real>,
+    error: L::Real,
+) -> L::Real {
+    let away = error * 2.0;
+    dot(direction, normal).lt(lanes.splat(0.0)).select(-away, away)
+}
+
+#[inline(always)]
+fn pairwise<R: Real>(a: &Vectors<R>, b: &Vectors<R>, f: impl Fn(R, R) -> R) -> Vectors<R> {
+    Vectors { x: f(a.x, b.x), y: f(a.y, b.y), z: f(a.z, b.z) }
+}

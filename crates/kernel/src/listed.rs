@@ -1,0 +1,338 @@
+//! Spheres and planes that stand by themselves, if they are few: whole registers
+//! of rays are held against each, so that for them no hierarchy is needed.
+
+use crate::Which;
+use crate::lanes::{Lanes, Mask, One, Real, Vectors, lanes_of};
+use crate::rays::Rays;
+use crate::shapes::plane::{HalfSpace, HalfSpaces};
+use crate::shapes::sphere::{Ball, Balls};
+use lancer_math::{Point, Ray, Vector};
+
+/// As many of a kind as there are bits.
+pub(crate) const MOST_LISTED: usize = 64;
+
+/// The shapes, each with the number of its item; numbers rise.
+#[derive(Debug, Default)]
+pub(crate) struct Listed {
+    balls: Vec<(u32, Ball)>,
+    planes: Vec<(u32, HalfSpace)>,
+    transparent_balls: u64,
+    transparent_planes: u64,
+}
+
+/// What a batch of rays is held against; the rest is left out because no ray of
+/// the batch can meet it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Candidates {
+    balls: u64,
+    planes: u64,
+}
+
+impl Candidates {
+    /// Everything.
+    pub const ALL: Self = Self { balls: u64::MAX, planes: u64::MAX };
+}
+
+/// The nearest hits of a register of rays.
+#[derive(Debug, Clone, Copy)]
+pub struct LaneHits<R> {
+    /// How many directions away; as far as was asked for where there is none.
+    pub t: R,
+    /// The numbers of the items; -1 where there is none.
+    pub item: R,
+    /// The parts.
+    pub part: R,
+}
+
+/// Points of a surface with what shading needs.
+#[derive(Debug, Clone, Copy)]
+pub struct LanePoints<R> {
+    /// Where they are.
+    pub point: Vectors<R>,
+    /// As [`SurfacePoint::error`](crate::SurfacePoint::error).
+    pub error: R,
+    /// The unit normals: outward where the shape is closed.
+    pub normal: Vectors<R>,
+}
+
+/// Where a batch of rays goes.
+#[derive(Debug, Clone, Copy)]
+pub enum Goal {
+    /// Each to that point.
+    Point(Point),
+    /// Each in that direction, without end.
+    Direction(Vector),
+}
+
+/// Generous for all roundings of products of a few terms, relative to the largest.
+const SLACK: f64 = 1e-12;
+
+impl Listed {
+    pub(crate) fn add_ball(&mut self, item: u32, ball: Ball, transparent: bool) {
+        self.transparent_balls |= u64::from(transparent) << self.balls.len();
+        self.balls.push((item, ball));
+    }
+
+    pub(crate) fn add_plane(&mut self, item: u32, plane: HalfSpace, transparent: bool) {
+        self.transparent_planes |= u64::from(transparent) << self.planes.len();
+        self.planes.push((item, plane));
+    }
+
+    pub(crate) fn has_room_for_plane(&self) -> bool {
+        self.planes.len() < MOST_LISTED
+    }
+
+    pub(crate) fn all(&self) -> Candidates {
+        let ones = |count: usize| (1_u128 << count).wrapping_sub(1) as u64;
+        Candidates { balls: ones(self.balls.len()), planes: ones(self.planes.len()) }
+    }
+
+    fn of(&self, which: Which) -> Candidates {
+        let all = self.all();
+        let (balls, planes) = (self.transparent_balls, self.transparent_planes);
+        match which {
+            Which::All => all,
+            Which::Transparent => Candidates { balls, planes },
+            Which::Opaque => Candidates { balls: all.balls & !balls, planes: all.planes & !planes },
+        }
+    }
+
+    /// The nearest hits with 0 < t < `t_max`, those of the first item where several
+    /// are equally near.
+    #[inline(always)]
+    pub(crate) fn nearest<L: Lanes>(
+        &self,
+        rays: &Rays<L>,
+        t_max: L::Real,
+        among: &Candidates,
+    ) -> LaneHits<L::Real> {
+        let lanes = rays.lanes;
+        let zero = lanes.splat(0.0);
+        let mut best = LaneHits { t: t_max, item: lanes.splat(-1.0), part: zero };
+        let all = self.all();
+        for k in bits_of(among.planes & all.planes) {
+            let (item, plane) = &self.planes[k];
+            let (ahead, slope) = HalfSpaces::splat(lanes, plane).slopes(rays);
+            // Of different signs they are behind.
+            let is_ahead = same_sign(ahead, slope, zero);
+            if is_ahead.any() {
+                best.consider(ahead / slope, lanes.splat(f64::from(*item)), is_ahead);
+            }
+        }
+        for k in bits_of(among.balls & all.balls) {
+            let (item, ball) = &self.balls[k];
+            let balls = Balls::splat(lanes, ball);
+            let may = balls.may_meet(rays);
+            if may.any() {
+                let t = balls.crossings(rays).ahead(zero);
+                best.consider(t, lanes.splat(f64::from(*item)), may & t.gt(zero));
+            }
+        }
+        best
+    }
+
+    /// Which rays hit one of some shapes with 0 < t < `t_max`.
+    #[inline(always)]
+    pub(crate) fn any<L: Lanes>(
+        &self,
+        rays: &Rays<L>,
+        t_max: f64,
+        which: Which,
+        among: &Candidates,
+    ) -> L::Mask {
+        let lanes = rays.lanes;
+        let (zero, t_max) = (lanes.splat(0.0), lanes.splat(t_max));
+        let of = self.of(which);
+        let mut met = lanes.mask(0);
+        for k in bits_of(among.planes & of.planes) {
+            let (ahead, slope) = HalfSpaces::splat(lanes, &self.planes[k].1).slopes(rays);
+            let is_ahead = same_sign(ahead, slope, zero);
+            if is_ahead.any() {
+                let t = ahead / slope;
+                met = met | (t.gt(zero) & t.lt(t_max));
+            }
+        }
+        for k in bits_of(among.balls & of.balls) {
+            let balls = Balls::splat(lanes, &self.balls[k].1);
+            let may = balls.may_meet(rays);
+            if may.any() {
+                let t = balls.crossings(rays).ahead(zero);
+                met = met | (may & t.gt(zero) & t.lt(t_max));
+            }
+        }
+        met
+    }
+
+    /// One ray's nearest hit.
+    #[inline]
+    pub(crate) fn nearest_of(&self, ray: &Ray, t_max: f64) -> Option<(f64, u32)> {
+        let hit = self.nearest(&Rays::splat(One, ray), t_max, &Candidates::ALL);
+        (hit.item >= 0.0).then_some((hit.t, hit.item as u32))
+    }
+
+    /// Whether one ray hits something.
+    #[inline]
+    pub(crate) fn meets(&self, ray: &Ray, t_max: f64, which: Which) -> bool {
+        self.any(&Rays::splat(One, ray), t_max, which, &Candidates::ALL).any()
+    }
+
+    /// The items of a kind.
+    pub(crate) fn items(&self, which: Which) -> impl Iterator<Item = u32> + '_ {
+        let of = self.of(which);
+        let planes = bits_of(of.planes).map(|k| self.planes[k].0);
+        planes.chain(bits_of(of.balls).map(|k| self.balls[k].0))
+    }
+
+    /// The points where rays hit the shape of that number, if it is listed.
+    #[inline(always)]
+    pub(crate) fn contacts<L: Lanes>(
+        &self,
+        item: u32,
+        rays: &Rays<L>,
+        t: L::Real,
+    ) -> Option<LanePoints<L::Real>> {
+        let (point, error, normal) = if let Some(plane) = self.plane(item) {
+            HalfSpaces::splat(rays.lanes, plane).contacts(rays, t)
+        } else {
+            let k = self.balls.binary_search_by_key(&item, |(item, _)| *item).ok()?;
+            Balls::splat(rays.lanes, &self.balls[k].1).contacts(rays, t)
+        };
+        Some(LanePoints { point, error, normal })
+    }
+
+    #[inline(always)]
+    pub(crate) fn plane(&self, item: u32) -> Option<&HalfSpace> {
+        let k = self.planes.binary_search_by_key(&item, |(item, _)| *item).ok()?;
+        Some(&self.planes[k].1)
+    }
+
+    pub(crate) fn is_listed(&self, item: u32) -> bool {
+        self.plane(item).is_some()
+            || self.balls.binary_search_by_key(&item, |(item, _)| *item).is_ok()
+    }
+
+    /// What rays may meet that start at a point and whose angle with an axis of
+    /// length 1 is at most that of the cosine.
+    ///
+    /// A ball is left out if it is beyond the tangent plane of the cone that is nearest to
+    /// it, a plane if all rays go away from it.
+    pub(crate) fn in_cone(&self, apex: &Point, axis: &Vector, cosine: f64) -> Candidates {
+        let mut among = self.all();
+        if !(cosine > 0.0 && cosine <= 1.0) {
+            return among;
+        }
+        // Wider by more than roundings.
+        let cosine = cosine * (1.0 - SLACK);
+        let sine = (1.0 - cosine * cosine).sqrt();
+        for (k, (_, ball)) in self.balls.iter().enumerate() {
+            let v = ball.centre - apex;
+            let along = v.dot(axis);
+            let across = (v - axis * along).norm();
+            let beyond = across * cosine - along * sine;
+            let slack = SLACK * (v.norm() + apex.coords.norm() + ball.centre.coords.norm());
+            if beyond > ball.radius * (1.0 + SLACK) + slack {
+                among.balls &= !(1 << k);
+            }
+        }
+        for (k, (_, plane)) in self.planes.iter().enumerate() {
+            let normal = plane.normal / plane.normal.norm();
+            let height = normal.dot(&(apex - plane.origin));
+            let slack = SLACK * (apex.coords.norm() + plane.origin.coords.norm());
+            let toward = if height > slack {
+                -normal.dot(axis)
+            } else if height < -slack {
+                normal.dot(axis)
+            } else {
+                continue;
+            };
+            let most = toward * cosine + (1.0 - toward * toward).max(0.0).sqrt() * sine;
+            if most < -1e-9 && toward < cosine {
+                among.planes &= !(1 << k);
+            }
+        }
+        among
+    }
+
+    /// What may be met by rays that start in a ball and go to a goal. If they all
+    /// leave the surface of a plane by its error bound, on the side that is given by
+    /// a unit normal there, `leaving` is its number and that normal.
+    ///
+    /// The hull of the ball and the goal is within the ball's radius of the line
+    /// from its centre. A plane with ball and goal on the same side is not between them; nor
+    /// is the one that rays leave, if the goal is on that side by more than
+    /// roundings: then they go away from it.
+    pub(crate) fn between(
+        &self,
+        centre: &Point,
+        radius: f64,
+        goal: &Goal,
+        leaving: Option<(u32, Vector)>,
+    ) -> Candidates {
+        let mut among = self.all();
+        let size = centre.coords.norm() + radius;
+        for (k, (_, ball)) in self.balls.iter().enumerate() {
+            let from_centre = ball.centre - centre;
+            let way = match goal {
+                Goal::Point(point) => point - centre,
+                Goal::Direction(direction) => *direction,
+            };
+            let length_squared = way.norm_squared();
+            let along = from_centre.dot(&way) / length_squared;
+            let along = match goal {
+                Goal::Point(_) => along.clamp(0.0, 1.0),
+                Goal::Direction(_) => along.max(0.0),
+            };
+            let off = (from_centre - way * along).norm();
+            let slack = 1e-9 * (size + ball.centre.coords.norm() + from_centre.norm() + radius);
+            if off > ball.radius + radius + slack {
+                among.balls &= !(1 << k);
+            }
+        }
+        for (k, (item, plane)) in self.planes.iter().enumerate() {
+            let normal = plane.normal / plane.normal.norm();
+            let height = normal.dot(&(centre - plane.origin));
+            let size = size + plane.origin.coords.norm();
+            let (of_goal, slack) = match goal {
+                Goal::Point(point) => {
+                    (normal.dot(&(point - plane.origin)), SLACK * (size + point.coords.norm()))
+                }
+                Goal::Direction(direction) => (normal.dot(direction), SLACK),
+            };
+            let near = SLACK * size + radius;
+            let above = height > near && of_goal > slack;
+            let below = height < -near && of_goal < -slack;
+            let leaves = leaving.is_some_and(|(leaving, side)| {
+                leaving == *item && of_goal * side.dot(&normal).signum() > slack
+            });
+            if above || below || leaves {
+                among.planes &= !(1 << k);
+            }
+        }
+        among
+    }
+}
+
+impl<R: Real> LaneHits<R> {
+    #[inline(always)]
+    fn consider(&mut self, t: R, item: R, met: R::Mask) {
+        let nearer = met & (t.lt(self.t) | (t.eq(self.t) & item.lt(self.item)));
+        self.t = nearer.select(t, self.t);
+        self.item = nearer.select(item, self.item);
+    }
+}
+
+/// Whether both are positive or both negative.
+#[inline(always)]
+fn same_sign<R: Real>(a: R, b: R, zero: R) -> R::Mask {
+    (a.gt(zero) & b.gt(zero)) | (a.lt(zero) & b.lt(zero))
+}
+
+/// The places of the bits that are set.
+#[inline(always)]
+fn bits_of(bits: u64) -> impl Iterator<Item = usize> {
+    let (low, high) = (bits as u32, (bits >> 32) as u32);
+    lanes_of(low).chain(lanes_of(high).map(
+        #[inline(always)]
+        |k| k + 32,
+    ))
+}
