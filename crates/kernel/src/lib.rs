@@ -31,6 +31,7 @@
 mod bvh;
 mod checker;
 mod crossing;
+mod hierarchy;
 mod hit;
 mod near;
 mod prepared;

@@ -1,4 +1,5 @@
 use crate::bvh::Bvh;
+use crate::lanes::Width;
 use crate::primitive::{Cell, Primitive};
 use crate::shapes::primitive;
 use crate::{Hit, SurfacePoint};
@@ -71,7 +72,7 @@ impl Ready {
             Pattern::Checker(checker) => checker.second.shares(),
         };
         Self {
-            primitive: primitive(&shape.geometry),
+            primitive: primitive(&shape.geometry, Width::best()),
             surface,
             // A mesh finds out by looking at all its edges: only where it matters.
             is_closed: surface.has_medium() && shape.geometry.is_closed(),

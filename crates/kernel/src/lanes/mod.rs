@@ -44,9 +44,11 @@
 //! }
 //! ```
 
+mod eight;
 mod one;
 mod wide;
 
+pub use eight::{Answers, Array, Doubles, Eight, Singles};
 use fearless_simd::Level;
 pub use one::One;
 use std::fmt::Debug;
@@ -54,7 +56,7 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 pub use wide::Wide;
 
 /// How many lanes there are, and the proof that the processor has them.
-pub trait Lanes: Copy + Debug + Send + Sync + 'static {
+pub trait Lanes: Eight + Debug + Send + Sync + 'static {
     /// How many doubles are computed with at once.
     const WIDTH: usize;
     /// So many doubles.

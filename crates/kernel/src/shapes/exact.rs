@@ -10,7 +10,7 @@
 use lancer_math::Vector;
 
 /// The rounded sum, and the exact sum minus it.
-#[inline]
+#[inline(always)]
 pub(crate) fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let back = sum - a;
@@ -18,14 +18,14 @@ pub(crate) fn two_sum(a: f64, b: f64) -> (f64, f64) {
 }
 
 /// The rounded product, and the exact product minus it.
-#[inline]
+#[inline(always)]
 pub(crate) fn two_product(a: f64, b: f64) -> (f64, f64) {
     let product = a * b;
     (product, a.mul_add(b, -product))
 }
 
 /// a b - c d, of which cancellation takes no digits.
-#[inline]
+#[inline(always)]
 pub(crate) fn difference_of_products(a: f64, b: f64, c: f64, d: f64) -> f64 {
     let (product, lost) = two_product(c, d);
     a.mul_add(b, -product) - lost
@@ -35,7 +35,7 @@ pub(crate) fn difference_of_products(a: f64, b: f64, c: f64, d: f64) -> f64 {
 ///
 /// Rounding keeps the order of two products unless it makes them equal, so
 /// what was lost is needed only then.
-#[inline]
+#[inline(always)]
 pub(crate) fn compare_products(a: f64, b: f64, c: f64, d: f64) -> f64 {
     let (first, second) = (a * b, c * d);
     if first == second { a.mul_add(b, -first) - c.mul_add(d, -second) } else { first - second }
