@@ -1,39 +1,40 @@
-//! Spheres by the block of eight.
+//! The spheres of a group.
+//!
+//! Those of a leaf are side by side: four rows, of coordinates and radii, of as many
+//! numbers as the leaf has spheres. A row is read as many numbers wide as there are
+//! lanes; what is behind its end is not looked at. So a sphere takes 32 bytes there,
+//! 4 for what it is, and its share of the hierarchy.
 
-use crate::bvh::Bvh;
-use crate::lanes::MOST;
-use crate::shapes::Ball;
-use lancer_math::Bounds;
+use super::space::Holds;
+use crate::hierarchy::{Hierarchy, LEAF};
+use crate::lanes::{Lanes, Vectors};
+use crate::shapes::sphere::{Ball, Balls};
+use lancer_math::{Bounds, Point};
+use std::ops::Range;
 
-/// Eight spheres at most, each with a lane; the others have a radius that is no
-/// number, so that nothing meets them.
-#[derive(Debug, Clone, Copy)]
-#[repr(align(64))]
-pub(super) struct Block {
-    pub(super) centre: [[f64; MOST]; 3],
-    pub(super) radius: [f64; MOST],
-}
-
-/// What a block's spheres are: looked at once one is met.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Names {
-    /// Their numbers among the shapes of their group.
-    pub(super) shapes: [u32; MOST],
-    /// Which lanes are spheres that let light through, a bit for each.
-    pub(super) transparent: u8,
-    /// Which lanes are spheres.
-    pub(super) filled: u8,
-}
-
-/// The spheres of a group.
 #[derive(Debug)]
-pub(super) struct Balls {
-    pub(super) blocks: Vec<Block>,
-    pub(super) names: Vec<Names>,
-    pub(super) hierarchy: Bvh,
+pub(super) struct Spheres {
+    rows: Vec<f64>,
+    pub(super) names: Vec<Name>,
+    /// None over so few that it is faster to hold a ray against each.
+    hierarchy: Option<Hierarchy>,
+    pub(super) holds: Holds,
 }
 
-/// A sphere that is to be put into a block.
+/// A sphere's number among the shapes of its group, and in the highest bit whether
+/// it lets light through.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Name(u32);
+
+/// Where a sphere is kept: its place, and among how many its leaf has it where.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Spot {
+    place: u32,
+    lane: u8,
+    count: u8,
+}
+
+/// A sphere that is to be kept here.
 pub(super) struct Given {
     pub(super) shape: u32,
     pub(super) ball: Ball,
@@ -41,63 +42,122 @@ pub(super) struct Given {
     pub(super) is_transparent: bool,
 }
 
-impl Block {
-    const EMPTY: Self = Self { centre: [[0.0; MOST]; 3], radius: [f64::NAN; MOST] };
+const ROWS: usize = 4;
 
-    /// One of the spheres.
-    #[inline]
-    pub(super) fn ball(&self, lane: usize) -> Ball {
-        Ball::at([0, 1, 2].map(|axis| self.centre[axis][lane]), self.radius[lane])
-    }
-}
+/// More spheres than these are put into a hierarchy.
+const FEW: usize = 16;
 
-impl Names {
-    /// The lanes to look at.
+impl Name {
+    const TRANSPARENT: u32 = 1 << 31;
+
     #[inline(always)]
-    pub(super) const fn lanes(&self, which: super::Which) -> u8 {
-        match which {
-            super::Which::All => self.filled,
-            super::Which::Opaque => self.filled & !self.transparent,
-            super::Which::Transparent => self.transparent,
-        }
+    pub(super) const fn shape(self) -> u32 {
+        self.0 & !Self::TRANSPARENT
+    }
+
+    #[inline(always)]
+    pub(super) const fn is_transparent(self) -> bool {
+        self.0 & Self::TRANSPARENT != 0
     }
 }
 
-impl Balls {
-    /// Puts spheres that are near to one another into blocks.
-    pub(super) fn new(given: &[Given]) -> Self {
-        let bounds: Vec<Bounds> = given.iter().map(|given| given.bounds).collect();
-        let (mut blocks, mut names, mut boxes) = (Vec::new(), Vec::new(), Vec::new());
-        for part in Bvh::new(&bounds).leaves().flat_map(|leaf| leaf.chunks(MOST)) {
-            let mut block = Block::EMPTY;
-            let mut name = Names { shapes: [0; MOST], transparent: 0, filled: 0 };
-            let mut around = Bounds::EMPTY;
-            for (lane, &i) in part.iter().enumerate() {
-                let given = &given[i as usize];
-                let (centre, radius) = given.ball.numbers();
-                for axis in 0..3 {
-                    block.centre[axis][lane] = centre[axis];
+impl Spheres {
+    pub(super) fn new(given: &[Given], holds: Holds) -> Self {
+        let (hierarchy, order) = if given.len() <= FEW {
+            (None, (0..given.len() as u32).collect())
+        } else {
+            let (hierarchy, order) = Hierarchy::over(given.len(), |i| given[i].bounds);
+            (Some(hierarchy), order)
+        };
+        let name = |&i: &u32| {
+            let Given { shape, is_transparent, .. } = given[i as usize];
+            Name(shape | if is_transparent { Name::TRANSPARENT } else { 0 })
+        };
+        let names: Vec<Name> = order.iter().map(name).collect();
+        let mut rows = vec![0.0; ROWS * given.len() + LEAF - 1];
+        let mut this = Self { rows: Vec::new(), names, hierarchy, holds };
+        for places in this.leaves() {
+            let (first, count) = (ROWS * places.start, places.len());
+            for (lane, place) in places.enumerate() {
+                let Ball { centre, radius } = given[order[place] as usize].ball;
+                for (row, x) in [centre.x, centre.y, centre.z, radius].into_iter().enumerate() {
+                    rows[first + row * count + lane] = x;
                 }
-                block.radius[lane] = radius;
-                name.shapes[lane] = given.shape;
-                name.filled |= 1 << lane;
-                name.transparent |= u8::from(given.is_transparent) << lane;
-                around = around.union(given.bounds);
             }
-            blocks.push(block);
-            names.push(name);
-            boxes.push(around);
         }
-        let hierarchy = Bvh::new(&boxes);
-        Self { blocks, names, hierarchy }
+        this.rows = rows;
+        this
     }
 
-    /// Each sphere's number among the shapes, and its place: eight times that of the
-    /// block plus the lane.
-    pub(super) fn places(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
-        (0..).zip(&self.names).flat_map(|(block, names)| {
-            let lanes = (0..MOST as u32).filter(|lane| names.filled >> lane & 1 != 0);
-            lanes.map(move |lane| (names.shapes[lane as usize], MOST as u32 * block + lane))
+    pub(super) const fn hierarchy(&self) -> Option<&Hierarchy> {
+        self.hierarchy.as_ref()
+    }
+
+    /// The places of what would be leaves if there were a hierarchy.
+    #[inline(always)]
+    pub(super) fn few(&self) -> impl Iterator<Item = Range<usize>> + use<> {
+        let count = if self.hierarchy.is_none() { self.names.len() } else { 0 };
+        (0..count).step_by(LEAF).map(
+            #[inline(always)]
+            move |first| first..(first + LEAF).min(count),
+        )
+    }
+
+    /// The places of the leaves.
+    fn leaves(&self) -> impl Iterator<Item = Range<usize>> + '_ {
+        self.hierarchy.iter().flat_map(Hierarchy::leaves).chain(self.few())
+    }
+
+    /// The spheres of a leaf from the lane `from` on.
+    #[inline(always)]
+    pub(super) fn load<L: Lanes>(
+        &self,
+        lanes: L,
+        places: &Range<usize>,
+        from: usize,
+    ) -> Balls<L::Real> {
+        let (first, count) = (ROWS * places.start + from, places.len());
+        let row = |row: usize| lanes.load(&self.rows[first + row * count..]);
+        Balls { centre: Vectors { x: row(0), y: row(1), z: row(2) }, radius: row(3) }
+    }
+
+    /// Each sphere's number among the shapes, and where it is.
+    pub(super) fn spots(&self) -> impl Iterator<Item = (u32, Spot)> + '_ {
+        self.leaves().flat_map(move |places| {
+            let count = places.len() as u8;
+            (0..).zip(places).map(move |(lane, place)| {
+                (self.names[place].shape(), Spot { place: place as u32, lane, count })
+            })
         })
+    }
+
+    #[inline]
+    pub(super) fn ball(&self, spot: Spot) -> Ball {
+        let (lane, count) = (usize::from(spot.lane), usize::from(spot.count));
+        let first = ROWS * (spot.place as usize - lane) + lane;
+        let [x, y, z, radius] = [0, 1, 2, 3].map(|row| self.rows[first + row * count]);
+        Ball { centre: Point::new(x, y, z), radius }
+    }
+
+    /// Calls `met` with each sphere that may hold the point, and its number among
+    /// the shapes.
+    pub(super) fn around(&self, point: &Point, mut met: impl FnMut(u32, Ball)) {
+        let mut leaf = |places: Range<usize>| {
+            let count = places.len() as u8;
+            for (lane, place) in (0..).zip(places) {
+                let spot = Spot { place: place as u32, lane, count };
+                met(self.names[place].shape(), self.ball(spot));
+            }
+        };
+        match &self.hierarchy {
+            Some(hierarchy) => hierarchy.visit_around(point, leaf),
+            None => self.few().for_each(&mut leaf),
+        }
+    }
+
+    pub(super) fn bytes(&self) -> usize {
+        size_of_val(&self.rows[..])
+            + size_of_val(&self.names[..])
+            + self.hierarchy.as_ref().map_or(0, Hierarchy::bytes)
     }
 }

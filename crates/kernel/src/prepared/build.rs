@@ -1,11 +1,16 @@
 //! From the description of a scene to its spaces.
 
-use super::balls::{Balls, Given};
+use super::balls::{Given, Spheres};
 use super::looks::{Look, Looks};
-use super::space::{Entry, Holds, Other, Own, Size, Space, Stand, norms};
-use crate::bvh::Bvh;
+use super::planes::Planes;
+use super::space::{Entry, Holds, Kept, Kind, Other, Own, Size, Space, Stand, norms};
+use crate::hierarchy::Hierarchy;
+use crate::lanes::Width;
 use crate::primitive::Primitive;
-use crate::shapes::{Ball, primitive};
+use crate::shapes::mesh::Facets;
+use crate::shapes::plane::HalfSpace;
+use crate::shapes::primitive;
+use crate::shapes::sphere::Ball;
 use lancer_math::{Bounds, Placement};
 use lancer_scene::{Geometry, Group, Mesh, Placed, Scene, Shape};
 use std::collections::BTreeMap;
@@ -19,14 +24,15 @@ pub(super) struct Built {
     pub(super) looks: Vec<Look>,
 }
 
-pub(super) fn build(scene: &Scene) -> Built {
-    let mut builder = Builder::default();
+pub(super) fn build(scene: &Scene, width: Width) -> Built {
+    let mut builder = Builder { width, ..Builder::default() };
     let root = builder.space(&scene.shapes, &scene.groups);
     Built { root, spaces: builder.spaces, looks: builder.looks.finish() }
 }
 
 #[derive(Default)]
 struct Builder {
+    width: Width,
     spaces: Vec<Space>,
     looks: Looks,
     /// How many shapes of the description have been numbered.
@@ -34,7 +40,7 @@ struct Builder {
     /// The spaces of groups, and the meshes, by address: only looked up, never
     /// walked, so that no address decides an order.
     known: BTreeMap<*const Group, u32>,
-    meshes: BTreeMap<*const Mesh, Arc<dyn Primitive>>,
+    meshes: BTreeMap<*const Mesh, Arc<Facets>>,
 }
 
 impl Builder {
@@ -74,16 +80,15 @@ impl Builder {
         let is_transparent = surface.is_transparent();
         // A mesh finds out by looking at all its edges: only where it matters.
         let is_solid = surface.has_medium() && shape.geometry.is_closed();
-        parts.holds = parts.holds.and(Holds {
-            opaque: !is_transparent,
-            transparent: is_transparent,
-            solid: is_solid,
-        });
+        let holds =
+            Holds { opaque: !is_transparent, transparent: is_transparent, solid: is_solid };
+        parts.holds = parts.holds.and(holds);
         if let Geometry::Sphere(sphere) = &shape.geometry {
             let ball = Ball::new(sphere);
             if let Some(bounds) = ball.bounds().filter(is_finite) {
                 parts.size = parts.size.and(Size::of(&bounds));
                 parts.around = parts.around.union(bounds);
+                parts.of_balls = parts.of_balls.and(holds);
                 parts.balls.push(Given { shape: number, ball, bounds, is_transparent });
                 return;
             }
@@ -91,15 +96,20 @@ impl Builder {
         let primitive = match &shape.geometry {
             Geometry::Mesh(mesh) => {
                 let known = self.meshes.entry(Arc::as_ptr(mesh));
-                Arc::clone(known.or_insert_with(|| primitive(&shape.geometry)))
+                let facets = known.or_insert_with(|| Arc::new(Facets::new(mesh, self.width)));
+                Kind::Mesh(Arc::clone(facets))
             }
-            geometry => primitive(geometry),
+            geometry => Kind::Any(primitive(geometry, self.width)),
         };
-        let bounds = primitive.bounds().filter(is_finite);
+        let bounds = primitive.get().bounds().filter(is_finite);
         if let Some(bounds) = &bounds {
             parts.size = parts.size.and(Size::of(bounds));
         }
-        parts.enter(Entry::other(parts.others.len()), bounds);
+        if let Geometry::Plane(plane) = &shape.geometry {
+            parts.planes.push((number, HalfSpace::new(plane), is_transparent));
+        } else {
+            parts.enter(Entry::other(parts.others.len()), bounds);
+        }
         parts.others.push(Other { primitive, shape: number, is_transparent, is_solid });
     }
 }
@@ -107,6 +117,8 @@ impl Builder {
 /// A space while it is put together.
 struct Parts {
     balls: Vec<Given>,
+    of_balls: Holds,
+    planes: Vec<(u32, HalfSpace, bool)>,
     others: Vec<Other>,
     placed: Vec<Stand>,
     bounded: Vec<Entry>,
@@ -115,12 +127,15 @@ struct Parts {
     holds: Holds,
     size: Size,
     around: Bounds,
+    depth: usize,
 }
 
 impl Default for Parts {
     fn default() -> Self {
         Self {
             balls: Vec::new(),
+            of_balls: Holds::default(),
+            planes: Vec::new(),
             others: Vec::new(),
             placed: Vec::new(),
             bounded: Vec::new(),
@@ -129,6 +144,7 @@ impl Default for Parts {
             holds: Holds::default(),
             size: Size::NONE,
             around: Bounds::EMPTY,
+            depth: 1,
         }
     }
 }
@@ -152,38 +168,44 @@ impl Parts {
         self.enter(Entry::placed(self.placed.len()), bounds);
         self.size = self.size.and(space.size.placed(&placement));
         self.holds = self.holds.and(space.holds);
+        self.depth = self.depth.max(1 + space.depth);
         let (_, shrink) = norms(&placement);
         self.placed.push(Stand { placement, shrink, space: number, first, holds: space.holds });
     }
 
     fn finish(self, first_shape: u32, looks: &[u32], item_count: u32) -> Space {
-        let balls = Balls::new(&self.balls);
-        let mut own: Vec<Own> = looks.iter().map(|&look| Own::other(look, 0)).collect();
+        let spheres = Spheres::new(&self.balls, self.of_balls);
+        let own = looks.iter().map(|&look| Own { look, kept: Kept::Other(0) });
+        let mut own: Vec<Own> = own.collect();
         for (index, other) in (0..).zip(&self.others) {
-            let own = &mut own[other.shape as usize];
-            *own = Own::other(own.look, index);
+            own[other.shape as usize].kept = Kept::Other(index);
         }
-        for (shape, place) in balls.places() {
-            let own = &mut own[shape as usize];
-            *own = Own::ball(own.look, place);
+        for (shape, spot) in spheres.spots() {
+            own[shape as usize].kept = Kept::Sphere(spot);
         }
+        // Each has a way of its own to be met, so each has a leaf.
+        let (hierarchy, order) =
+            Hierarchy::with_leaves_of(1, self.boxes.len(), |i| self.boxes[i]);
+        let has_end = self.unbounded.is_empty() && self.planes.is_empty();
         Space {
             first_shape,
             own,
-            balls,
-            bounds: self.unbounded.is_empty().then_some(self.around),
+            spheres,
+            planes: Planes::blocks(&self.planes),
             others: self.others,
             placed: self.placed,
-            bounded: self.bounded,
-            hierarchy: Bvh::new(&self.boxes),
+            bounded: order.iter().map(|&i| self.bounded[i as usize]).collect(),
+            hierarchy,
             unbounded: self.unbounded,
             item_count,
             holds: self.holds,
             size: self.size,
+            bounds: has_end.then_some(self.around),
+            depth: self.depth,
         }
     }
 }
 
-fn is_finite(bounds: &Bounds) -> bool {
+pub(super) fn is_finite(bounds: &Bounds) -> bool {
     bounds.sides().iter().all(|side| side.is_finite())
 }

@@ -3,12 +3,15 @@
 use super::Prepared;
 use super::looks::Look;
 use super::space::{Content, Entry, Kept};
-use super::walk::Place;
+use super::walk::{Place, Walk};
+use crate::hierarchy::Stack;
+use crate::lanes::{One, lanes_of};
 use crate::primitive::Primitive;
 use crate::{Crossing, Hit, SurfacePoint};
-use lancer_math::{Point, Ray};
+use lancer_math::{Point, Ray, Vector};
 use lancer_scene::Surface;
 use std::cmp::Ordering;
+use std::ops::ControlFlow;
 
 /// An item: a shape where it stands.
 struct Item<'a> {
@@ -23,9 +26,9 @@ impl Item<'_> {
     #[inline]
     fn primitive<R>(&self, ask: impl FnOnce(&dyn Primitive) -> R) -> R {
         let space = self.place.space;
-        match space.own[self.shape as usize].kept() {
-            Kept::Ball(block, lane) => ask(&space.balls.blocks[block].ball(lane)),
-            Kept::Other(index) => ask(&*space.others[index].primitive),
+        match space.own[self.shape as usize].kept {
+            Kept::Sphere(spot) => ask(&space.spheres.ball(spot)),
+            Kept::Other(index) => ask(space.others[index as usize].primitive.get()),
         }
     }
 }
@@ -81,17 +84,30 @@ impl Prepared {
     /// Where there is no such item.
     #[must_use]
     pub fn surface(&self, item: u32) -> &Surface {
+        &self.look(item).surface
+    }
+
+    fn look(&self, item: u32) -> &Look {
         let mut space = &self.root;
         let mut local = item;
         loop {
             if let Some(own) = space.own.get(local as usize) {
-                return &self.looks[own.look as usize].surface;
+                return &self.looks[own.look as usize];
             }
             let after = space.placed.partition_point(|stand| stand.first <= local);
             let stand = &space.placed[after - 1];
             local -= stand.first;
             space = &self.spaces[stand.space as usize];
         }
+    }
+
+    /// The two colours of an item; the same where it has no checker.
+    ///
+    /// # Panics
+    /// Where there is no such item.
+    #[must_use]
+    pub fn albedos(&self, item: u32) -> [[f64; 3]; 2] {
+        self.look(item).albedos()
     }
 
     /// Whose medium a point is in that is in both: that of the higher priority;
@@ -118,38 +134,58 @@ impl Prepared {
     #[must_use]
     pub fn solids_at(&self, point: &Point) -> Vec<u32> {
         let mut solids = Vec::new();
-        self.solids_in(&Place::world(&self.root), point, &mut solids);
+        // Any direction serves: the ray goes nowhere.
+        let walk = Walk::new(self, &Ray::new(*point, Vector::new(1.0, 1.0, 1.0)));
+        self.solids_in(&Place::world(&self.root), &walk, &mut solids);
         solids.sort_unstable();
         solids
     }
 
-    fn solids_in(&self, place: &Place<'_>, point: &Point, solids: &mut Vec<u32>) {
+    fn solids_in(&self, place: &Place<'_>, walk: &Walk<'_>, solids: &mut Vec<u32>) {
         let space = place.space;
-        if !space.holds.solid {
-            return;
-        }
-        let local = if place.is_world { *point } else { place.placement.local_point(point) };
-        for (block, names) in space.balls.blocks.iter().zip(&space.balls.names) {
-            for lane in crate::lanes::lanes_of(u32::from(names.transparent)) {
-                let shape = names.shapes[lane];
+        let ray = place.local(&walk.ray);
+        let point = &ray.origin;
+        if space.spheres.holds.solid {
+            space.spheres.around(point, |shape, ball| {
                 let look = &self.looks[space.own[shape as usize].look as usize];
-                if look.surface.has_medium() && block.ball(lane).contains(&local) {
+                if look.surface.has_medium() && ball.contains(point) {
                     solids.push(place.first + shape);
                 }
-            }
+            });
         }
-        let mut enter = |entry: &Entry| match entry.content() {
+        let mut enter = |entry: Entry| match entry.content() {
             Content::Other(index) => {
                 let other = &space.others[index];
-                if other.is_solid && other.primitive.contains(&local) {
+                if other.is_solid && other.primitive.get().contains(point) {
                     solids.push(place.first + other.shape);
                 }
             }
             Content::Placed(index) => {
-                self.solids_in(&place.inside(&space.placed[index], &self.spaces), point, solids);
+                let stand = &space.placed[index];
+                if stand.holds.solid {
+                    self.solids_in(&place.inside(stand, &self.spaces), walk, solids);
+                }
             }
         };
-        space.unbounded.iter().for_each(&mut enter);
-        space.bounded.iter().for_each(&mut enter);
+        for planes in &space.planes {
+            for lane in lanes_of(planes.transparent) {
+                let shape = planes.shapes[lane];
+                if let Kept::Other(index) = space.own[shape as usize].kept {
+                    enter(Entry::other(index as usize));
+                }
+            }
+        }
+        space.unbounded.iter().copied().for_each(&mut enter);
+        space.hierarchy.visit(
+            One,
+            &mut Stack::new(),
+            &ray,
+            walk.margin(place),
+            (0.0, 0.0),
+            |places, to| {
+                space.bounded[places].iter().copied().for_each(&mut enter);
+                ControlFlow::Continue(to)
+            },
+        );
     }
 }

@@ -23,6 +23,11 @@ impl Look {
         Self { surface: *surface, albedo, second }
     }
 
+    /// The two colours of its checker; the same where it has none.
+    pub(super) const fn albedos(&self) -> [[f64; 3]; 2] {
+        [self.albedo, self.second]
+    }
+
     /// The shares of light that are thrown back at a contact.
     pub(super) fn albedo(
         &self,

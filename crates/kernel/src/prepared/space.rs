@@ -1,9 +1,11 @@
 //! What a group holds, in its own space: prepared once, wherever it stands.
 
 use super::Which;
-use super::balls::Balls;
-use crate::bvh::Bvh;
+use super::balls::{Spheres, Spot};
+use super::planes::Planes;
+use crate::hierarchy::Hierarchy;
 use crate::primitive::Primitive;
+use crate::shapes::mesh::Facets;
 use lancer_math::{Bounds, Placement, Point, Vector};
 use std::sync::Arc;
 
@@ -16,19 +18,23 @@ pub(super) struct Space {
     /// The number of its first shape in the description.
     pub(super) first_shape: u32,
     pub(super) own: Vec<Own>,
-    pub(super) balls: Balls,
+    pub(super) spheres: Spheres,
+    pub(super) planes: Vec<Planes>,
     pub(super) others: Vec<Other>,
     pub(super) placed: Vec<Stand>,
-    /// Others and placed groups that a box holds, and the hierarchy of the boxes.
+    /// Others and placed groups that a box holds, in the order of the places of the
+    /// hierarchy of these boxes.
     pub(super) bounded: Vec<Entry>,
-    pub(super) hierarchy: Bvh,
-    /// The rest; a ray is held against each.
+    pub(super) hierarchy: Hierarchy,
+    /// The rest, planes apart; a ray is held against each.
     pub(super) unbounded: Vec<Entry>,
     pub(super) item_count: u32,
     pub(super) holds: Holds,
     pub(super) size: Size,
     /// Around everything; `None` where something has no end.
     pub(super) bounds: Option<Bounds>,
+    /// How many spaces are nested, this one included.
+    pub(super) depth: usize,
 }
 
 /// One of a group's own shapes.
@@ -36,27 +42,33 @@ pub(super) struct Space {
 pub(super) struct Own {
     /// What it looks like.
     pub(super) look: u32,
-    place: u32,
+    pub(super) kept: Kept,
 }
 
 /// Where a shape is kept.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy)]
 pub(super) enum Kept {
-    /// Among the spheres: in which block and lane.
-    Ball(usize, usize),
-    /// Among the others.
-    Other(usize),
+    Sphere(Spot),
+    /// Its number among the others.
+    Other(u32),
 }
 
-/// A shape that is not in a block.
+/// A shape that is no sphere.
 #[derive(Debug)]
 pub(super) struct Other {
-    pub(super) primitive: Arc<dyn Primitive>,
+    pub(super) primitive: Kind,
     /// Its number among the shapes of its group.
     pub(super) shape: u32,
     pub(super) is_transparent: bool,
     /// Whether a medium can fill it.
     pub(super) is_solid: bool,
+}
+
+/// A mesh, which is met in lanes, or another kind.
+#[derive(Debug, Clone)]
+pub(super) enum Kind {
+    Mesh(Arc<Facets>),
+    Any(Arc<dyn Primitive>),
 }
 
 /// A group where it stands in another.
@@ -111,23 +123,11 @@ pub(super) struct Size {
     pub(super) condition: f64,
 }
 
-impl Own {
-    const BALL: u32 = 1 << 31;
-
-    pub(super) const fn ball(look: u32, place: u32) -> Self {
-        Self { look, place: place | Self::BALL }
-    }
-
-    pub(super) const fn other(look: u32, index: u32) -> Self {
-        Self { look, place: index }
-    }
-
-    pub(super) const fn kept(&self) -> Kept {
-        let place = (self.place & !Self::BALL) as usize;
-        if self.place & Self::BALL == 0 {
-            Kept::Other(place)
-        } else {
-            Kept::Ball(place / crate::lanes::MOST, place % crate::lanes::MOST)
+impl Kind {
+    pub(super) fn get(&self) -> &dyn Primitive {
+        match self {
+            Self::Mesh(facets) => &**facets,
+            Self::Any(primitive) => &**primitive,
         }
     }
 }
@@ -173,11 +173,7 @@ impl Holds {
 impl Other {
     #[inline(always)]
     pub(super) const fn is_asked(&self, which: Which) -> bool {
-        match which {
-            Which::All => true,
-            Which::Opaque => !self.is_transparent,
-            Which::Transparent => self.is_transparent,
-        }
+        which.has(self.is_transparent)
     }
 }
 

@@ -8,12 +8,19 @@
 //! come to ([`Walk::margin`]); those of a group's own shapes are not, since there
 //! shape and box are held against the very same ray.
 
-use super::balls::{Block, Names};
-use super::space::{Content, Entry, Space, Stand};
+use super::balls::{Name, Spheres};
+use super::planes::Planes;
+use super::space::{Content, Entry, Kind, Space, Stand};
 use super::{Prepared, Which};
-use crate::lanes::Lanes;
+use crate::hierarchy::Stack;
+use crate::lanes::{Lanes, MOST};
 use crate::primitive::Primitive;
+use crate::rays::Rays;
+use crate::shapes::mesh::Facets;
+use crate::shapes::sphere::Balls;
 use lancer_math::{Placement, Ray};
+use std::cell::Cell;
+use std::ops::{ControlFlow, Range};
 
 /// What is asked about a ray.
 pub(super) trait Quest {
@@ -26,18 +33,34 @@ pub(super) trait Quest {
     /// Up to where; less and less.
     fn to(&self) -> f64;
 
-    /// Looks at a shape, with the ray in its space.
-    fn meet(&mut self, primitive: &dyn Primitive, ray: &Ray, item: u32);
+    /// Whether the answer is known.
+    fn is_done(&self) -> bool;
 
-    /// Looks at the spheres of a block; their items are numbered from `first` on.
-    fn meet_block<L: Lanes>(
+    /// Looks at a shape, with the ray in its space.
+    fn primitive(&mut self, primitive: &dyn Primitive, ray: &Ray, item: u32);
+
+    /// Looks at a mesh.
+    fn mesh<L: Lanes>(
         &mut self,
         lanes: L,
-        block: &Block,
-        names: &Names,
+        stack: &mut Stack,
+        mesh: &Facets,
         ray: &Ray,
+        item: u32,
+    );
+
+    /// Looks at as many spheres of a register as there are names; their items are
+    /// numbered from `first` on.
+    fn spheres<L: Lanes>(
+        &mut self,
+        balls: &Balls<L::Real>,
+        names: &[Name],
+        rays: &Rays<L>,
         first: u32,
     );
+
+    /// Looks at the planes of a block from the lane `from` on.
+    fn planes<L: Lanes>(&mut self, planes: &Planes, from: usize, rays: &Rays<L>, first: u32);
 }
 
 /// A space where it is met.
@@ -55,12 +78,13 @@ pub(super) struct Place<'a> {
 
 impl<'a> Place<'a> {
     /// The scene itself.
+    #[inline(always)]
     pub(super) const fn world(space: &'a Space) -> Self {
         Self { space, placement: Placement::IDENTITY, is_world: true, first: 0, shrink: 1.0 }
     }
 
     /// Where a group stands in it.
-    #[inline]
+    #[inline(always)]
     pub(super) fn inside(&self, stand: &Stand, spaces: &'a [Space]) -> Self {
         let placement =
             if self.is_world { stand.placement } else { stand.placement.then(&self.placement) };
@@ -74,7 +98,7 @@ impl<'a> Place<'a> {
     }
 
     /// The ray of the world there.
-    #[inline]
+    #[inline(always)]
     pub(super) fn local(&self, ray: &Ray) -> Ray {
         if self.is_world {
             return *ray;
@@ -84,10 +108,21 @@ impl<'a> Place<'a> {
     }
 }
 
+/// Which of the scene's own shapes have been looked at already.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Known {
+    pub(super) spheres: bool,
+    pub(super) planes: bool,
+}
+
+impl Known {
+    pub(super) const NONE: Self = Self { spheres: false, planes: false };
+}
+
 pub(super) struct Walk<'a> {
     spaces: &'a [Space],
     /// In the world.
-    ray: Ray,
+    pub(super) ray: Ray,
     /// The coordinates between the origin and whatever a hit can be on, offsets
     /// included, are at most this.
     reach: f64,
@@ -112,85 +147,153 @@ impl<'a> Walk<'a> {
     /// out again. The bound is four times as much, and still far less than what
     /// rounding boxes to single precision adds.
     #[inline(always)]
-    fn margin(&self, place: &Place<'_>) -> f64 {
+    pub(super) fn margin(&self, place: &Place<'_>) -> f64 {
         const UNIT: f64 = 2048.0 * f64::EPSILON;
+        if place.space.placed.is_empty() {
+            return 0.0;
+        }
         UNIT * place.shrink * (1.0 + place.space.size.condition) * self.reach
     }
 
-    /// Holds the ray against all that may matter to the quest.
+    /// Holds the ray against all that may matter to the quest. There are as many
+    /// stacks as spaces are nested, and one more for meshes.
     #[inline(always)]
-    pub(super) fn go<L: Lanes, Q: Quest>(&self, lanes: L, place: &Place<'_>, quest: &mut Q) {
+    pub(super) fn go<L: Lanes, Q: Quest>(
+        &self,
+        lanes: L,
+        stacks: &mut [Stack],
+        place: &Place<'_>,
+        known: Known,
+        quest: &mut Q,
+    ) {
+        let Some((stack, inner)) = stacks.split_first_mut() else { return };
         let space = place.space;
         let ray = place.local(&self.ray);
+        let rays = Rays::splat(lanes, &ray);
+        if !known.planes {
+            for planes in &space.planes {
+                for from in (0..MOST).step_by(L::WIDTH) {
+                    quest.planes(planes, from, &rays, place.first);
+                }
+            }
+        }
         for &entry in &space.unbounded {
-            self.enter(lanes, place, &ray, entry, quest);
+            self.enter(lanes, inner, place, &ray, entry, quest);
         }
         let from = quest.from().min(0.0);
-        let balls = &space.balls;
-        if !balls.blocks.is_empty() {
-            balls.hierarchy.visit(
-                &ray,
-                from,
-                quest.to(),
-                #[inline(always)]
-                |i, _| {
-                    quest.meet_block(lanes, &balls.blocks[i], &balls.names[i], &ray, place.first);
-                    quest.to()
-                },
-            );
+        let spheres = &space.spheres;
+        if !known.spheres && spheres.holds.any(quest.which()) && !quest.is_done() {
+            match spheres.hierarchy() {
+                Some(hierarchy) => hierarchy.visit(
+                    lanes,
+                    stack,
+                    &ray,
+                    0.0,
+                    (from, quest.to()),
+                    #[inline(always)]
+                    |places, _| {
+                        leaf(spheres, &places, &rays, place.first, quest);
+                        go_on(quest)
+                    },
+                ),
+                None => {
+                    for places in spheres.few() {
+                        leaf(spheres, &places, &rays, place.first, quest);
+                    }
+                }
+            }
         }
-        if !space.bounded.is_empty() {
-            let margin = if space.placed.is_empty() { 0.0 } else { self.margin(place) };
-            space.hierarchy.visit_wide(
+        if !space.bounded.is_empty() && !quest.is_done() {
+            space.hierarchy.visit(
+                lanes,
+                stack,
                 &ray,
-                margin,
-                from,
-                quest.to(),
+                self.margin(place),
+                (from, quest.to()),
                 #[inline(always)]
-                |i, _| {
-                    self.enter(lanes, place, &ray, space.bounded[i], quest);
-                    quest.to()
+                |places, _| {
+                    for &entry in &space.bounded[places] {
+                        self.enter(lanes, inner, place, &ray, entry, quest);
+                    }
+                    go_on(quest)
                 },
             );
         }
     }
 
-    #[inline(always)]
+    /// Not inlined, as it is wanted twice; and no deeper in itself than groups may
+    /// be nested.
     fn enter<L: Lanes, Q: Quest>(
         &self,
         lanes: L,
+        stacks: &mut [Stack],
         place: &Place<'_>,
         ray: &Ray,
         entry: Entry,
         quest: &mut Q,
     ) {
-        match entry.content() {
-            Content::Other(index) => {
-                let other = &place.space.others[index];
-                if other.is_asked(quest.which()) {
-                    quest.meet(&*other.primitive, ray, place.first + other.shape);
-                }
-            }
-            Content::Placed(index) => {
-                let stand = &place.space.placed[index];
-                if stand.holds.any(quest.which()) {
-                    self.descend(lanes, place, stand, quest);
-                }
-            }
-        }
-    }
-
-    /// No deeper than groups may be nested.
-    fn descend<L: Lanes, Q: Quest>(
-        &self,
-        lanes: L,
-        place: &Place<'_>,
-        stand: &Stand,
-        quest: &mut Q,
-    ) {
+        let which = quest.which();
         lanes.vectorize(
             #[inline(always)]
-            || self.go(lanes, &place.inside(stand, self.spaces), quest),
+            || match entry.content() {
+                Content::Other(index) => {
+                    let other = &place.space.others[index];
+                    if !other.is_asked(which) {
+                        return;
+                    }
+                    let item = place.first + other.shape;
+                    match &other.primitive {
+                        Kind::Mesh(mesh) => quest.mesh(lanes, &mut stacks[0], mesh, ray, item),
+                        Kind::Any(primitive) => quest.primitive(&**primitive, ray, item),
+                    }
+                }
+                Content::Placed(index) => {
+                    let stand = &place.space.placed[index];
+                    if stand.holds.any(which) {
+                        let inside = place.inside(stand, self.spaces);
+                        self.go(lanes, stacks, &inside, Known::NONE, quest);
+                    }
+                }
+            },
         );
     }
+}
+
+/// The spheres of a leaf.
+#[inline(always)]
+fn leaf<L: Lanes, Q: Quest>(
+    spheres: &Spheres,
+    places: &Range<usize>,
+    rays: &Rays<L>,
+    first: u32,
+    quest: &mut Q,
+) {
+    let names = &spheres.names[places.clone()];
+    for from in (0..names.len()).step_by(L::WIDTH) {
+        let balls = spheres.load(rays.lanes, places, from);
+        quest.spheres(&balls, &names[from..], rays, first);
+    }
+}
+
+#[inline(always)]
+fn go_on<Q: Quest>(quest: &Q) -> ControlFlow<(), f64> {
+    if quest.is_done() { ControlFlow::Break(()) } else { ControlFlow::Continue(quest.to()) }
+}
+
+thread_local! {
+    /// Kept from one question to the next.
+    static STACKS: Cell<Vec<Stack>> = const { Cell::new(Vec::new()) };
+}
+
+/// Runs `work` with at least so many stacks.
+#[inline(always)]
+pub(super) fn with_stacks<R>(count: usize, work: impl FnOnce(&mut [Stack]) -> R) -> R {
+    // Taken, so that a shape of the user's own may ask another question meanwhile.
+    let mut stacks = STACKS.take();
+    if stacks.len() < count {
+        stacks.resize_with(count, Stack::new);
+    }
+    let result = work(&mut stacks);
+    STACKS.set(stacks);
+    result
 }

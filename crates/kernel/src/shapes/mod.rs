@@ -9,7 +9,7 @@ mod edges;
 mod exact;
 mod flat;
 mod frame;
-mod mesh;
+pub(crate) mod mesh;
 pub(crate) mod plane;
 pub(crate) mod sphere;
 #[cfg(test)]
@@ -18,13 +18,13 @@ mod tetrahedron;
 mod torus;
 mod triangle;
 
+use crate::lanes::Width;
 use crate::primitive::Primitive;
 use lancer_scene::Geometry;
-pub(crate) use sphere::Ball;
 use std::sync::Arc;
 
 /// The shape made ready.
-pub(crate) fn primitive(geometry: &Geometry) -> Arc<dyn Primitive> {
+pub(crate) fn primitive(geometry: &Geometry, width: Width) -> Arc<dyn Primitive> {
     match geometry {
         Geometry::Sphere(sphere) => Arc::new(sphere::Ball::new(sphere)),
         Geometry::Plane(plane) => Arc::new(plane::HalfSpace::new(plane)),
@@ -35,7 +35,7 @@ pub(crate) fn primitive(geometry: &Geometry) -> Arc<dyn Primitive> {
         Geometry::Tetrahedron(solid) => Arc::new(tetrahedron::Faces::new(solid)),
         Geometry::Cone(cone) => Arc::new(cone::Barrel::new(cone)),
         Geometry::Torus(torus) => Arc::new(torus::Ring::new(torus)),
-        Geometry::Mesh(mesh) => Arc::new(mesh::Facets::new(mesh)),
+        Geometry::Mesh(mesh) => Arc::new(mesh::Facets::new(mesh, width)),
         Geometry::Custom(custom) => Arc::new(custom::Own::new(custom)),
     }
 }

@@ -66,7 +66,7 @@ impl<R: Real> Balls<R> {
 
     /// The same for something ahead or behind.
     #[inline(always)]
-    fn may_meet_line<L: Lanes<Real = R>>(&self, rays: &Rays<L>) -> R::Mask {
+    pub(crate) fn may_meet_line<L: Lanes<Real = R>>(&self, rays: &Rays<L>) -> R::Mask {
         let from_centre = rays.origin - self.centre;
         !self.passes(rays, from_centre.dot(&rays.tame), from_centre.norm_squared())
     }
