@@ -1,5 +1,5 @@
 use crate::bvh::Bvh;
-use crate::checker;
+use crate::checker::{self, LaneCells};
 use crate::lanes::{Lanes, MOST, Mask, Real, lanes_of};
 use crate::listed::{Candidates, Goal, LaneHits, LanePoints, Listed};
 use crate::primitive::{Cell, Primitive};
@@ -328,18 +328,22 @@ impl Prepared {
         self.listed.contacts(item, rays, t)
     }
 
-    /// In which lanes a plane's checker shows its second colour; `None` where the item is
-    /// no plane that is met in lanes, or where doubles do not tell its squares apart.
+    /// Which colours of a checker points show of an item that is met in lanes.
     #[inline(always)]
-    pub fn squares_in_lanes<L: Lanes>(
+    pub fn cells_in_lanes<L: Lanes>(
         &self,
         lanes: L,
         item: u32,
         points: &LanePoints<L::Real>,
         checker: &Checker,
-    ) -> Option<L::Mask> {
-        let (first, second) = self.listed.plane(item)?.squares(lanes, &points.point, checker);
-        checker::second(lanes, first, second)
+    ) -> LaneCells<L::Mask> {
+        match self.listed.plane(item) {
+            Some(plane) => {
+                let (first, second) = plane.squares(lanes, &points.point, checker);
+                checker::cells(lanes, first, second)
+            }
+            None => checker::on_globe(lanes, &points.normal, checker.angle.get()),
+        }
     }
 
     /// Whether [`points_in_lanes`](Self::points_in_lanes) knows the item.
