@@ -2,7 +2,9 @@
 //! alone, to the last bit, and follows the same rays.
 
 use lancer_film::Window;
-use lancer_integrator::{Culling, Engine, KernelSettings, RayCounts, Rgb, Tracer, Whitted, Width};
+use lancer_integrator::{
+    Culling, Engine, KernelSettings, RayCounts, Rgb, TILE_SIDE, Tracer, Whitted, Width,
+};
 use lancer_scene::{PixelCount, Scene};
 use lancer_tests::golden;
 use lancer_tests::random;
@@ -34,8 +36,7 @@ fn check(name: &str, scene: &Scene, settings: &[KernelSettings]) {
     let reference = engine.prepare(scene, &settings[0]);
     let tracers: Vec<_> = settings.iter().map(|settings| engine.prepare(scene, settings)).collect();
     let frame = lancer_film::Size::new(width, height).window();
-    for index in 0..frame.tile_count(lancer_integrator::TILE_SIDE) {
-        let window = frame.tile(lancer_integrator::TILE_SIDE, index);
+    for window in frame.strips(TILE_SIDE, TILE_SIDE) {
         let (expected, counts) = alone(&*reference, window);
         for (tracer, settings) in tracers.iter().zip(settings) {
             let (found, found_counts) = together(&**tracer, window);

@@ -45,6 +45,8 @@
 //! ```
 
 mod one;
+#[cfg(test)]
+mod tests;
 mod vectors;
 mod wide;
 
