@@ -17,6 +17,19 @@ Exit codes:
   1  the scene or the work failed, or the pictures differ
   2  wrong usage";
 
+/// Below the options of `render`.
+const ENVIRONMENT_AND_EXIT_CODES: &str = "\
+Environment:
+  LANCER_LANES  how many numbers are computed with at once: scalar, portable, avx2 or avx512, as
+                far as the processor has them; the most that it has by default. The picture is
+                the same
+  NO_COLOR      if set, warnings and errors have no colours
+
+Exit codes:
+  0  done
+  1  the scene or the work failed, or the pictures differ
+  2  wrong usage";
+
 /// Lancer, a ray tracer: text scene in, picture out.
 #[derive(Debug, Parser)]
 #[command(name = "lancer", version, after_help = EXIT_CODES, arg_required_else_help = true)]
@@ -30,7 +43,7 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Render a scene to a picture
-    #[command(after_help = EXIT_CODES)]
+    #[command(after_help = ENVIRONMENT_AND_EXIT_CODES)]
     Render(RenderArgs),
     /// Report all that is wrong with scenes, without rendering
     #[command(after_help = EXIT_CODES)]

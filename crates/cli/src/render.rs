@@ -7,16 +7,20 @@ use crate::{Failure, interrupt, preview, report};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use lancer_film::Size;
 use lancer_integrator::{
-    Engine, KernelSettings, RenderError, RenderSettings, Rendered, Trouble, Whitted, Width, render,
+    Engine, KernelSettings, Progress, RenderError, RenderSettings, Rendered, Trouble, Whitted,
+    Width, render,
 };
 use lancer_output::{Format, encode, encode_exr_with_layers, to_rgb8};
 use lancer_scene::{PixelCount, Scene};
 use lancer_xml::Options;
 use std::io::IsTerminal;
+use std::num::NonZeroUsize;
 
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let outputs = Outputs::new(args)?;
     let engine = engine(args)?;
+    let lanes = Width::from_environment()
+        .map_err(|error| Failure::Usage(format!("LANCER_LANES: {error}")))?;
     let mut seconds = Seconds::default();
     let mut stopwatch = Stopwatch::start();
 
@@ -43,7 +47,8 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     }
     seconds.parse = stopwatch.lap();
 
-    let rendered = draw(&scene, args, engine, &outputs)?;
+    start_threads(args)?;
+    let rendered = draw(&scene, args, engine, lanes, &outputs)?;
     if !args.quiet {
         tell_troubles(&name, &rendered);
     }
@@ -75,6 +80,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         lights: scene.lights.len(),
         shapes: scene.shape_count(),
         threads: rendered.threads,
+        lanes: lanes.name(),
         rays: rendered.counts.into(),
         frame_peak: rendered.film.frame_peak(),
         exposure: rendered.film.stops(),
@@ -268,31 +274,44 @@ fn tell_troubles(name: &str, rendered: &Rendered) {
     );
 }
 
+/// Starts the threads that everything from here on is done with, so many as the
+/// arguments say.
+fn start_threads(args: &RenderArgs) -> Result<(), Failure> {
+    let threads = args.threads.map_or(0, NonZeroUsize::get);
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build_global()
+        .map_err(|error| Failure::work(format_args!("could not start the threads: {error}")))
+}
+
 fn draw(
     scene: &Scene,
     args: &RenderArgs,
     engine: &dyn Engine,
+    lanes: Width,
     outputs: &Outputs,
 ) -> Result<Rendered, Failure> {
-    let lanes = Width::from_environment()
-        .map_err(|error| Failure::Usage(format!("LANCER_LANES: {error}")))?;
-    let bar = progress_bar(args);
-    let progress = |done, all| {
-        bar.set_length(all);
-        bar.set_position(done);
-    };
+    let bar = talks(args).then(progress_bar);
+    let progress = bar.as_ref().map(|bar| {
+        |done, all| {
+            bar.set_length(all);
+            bar.set_position(done);
+        }
+    });
     let settings = RenderSettings {
         window: args.crop,
         for_display: outputs.shows_codes(args),
         exposure: args.exposure,
         layers: args.layers.is_some(),
         kernel: KernelSettings { lanes, ..KernelSettings::default() },
-        threads: args.threads,
-        progress: Some(&progress),
+        progress: progress.as_ref().map(|progress| progress as &Progress),
         cancel: Some(interrupt::watch()),
+        ..RenderSettings::default()
     };
     let result = render(scene, engine, &settings);
-    bar.finish_and_clear();
+    if let Some(bar) = &bar {
+        bar.finish_and_clear();
+    }
     result.map_err(|error| match error {
         RenderError::Interrupted => interrupted(),
         RenderError::Refused { .. } => {
@@ -306,10 +325,7 @@ fn interrupted() -> Failure {
     Failure::work("interrupted; no picture was written")
 }
 
-fn progress_bar(args: &RenderArgs) -> ProgressBar {
-    if !talks(args) {
-        return ProgressBar::hidden();
-    }
+fn progress_bar() -> ProgressBar {
     let style = ProgressStyle::with_template("{wide_bar} {percent:>3} % {eta:>4} left");
     ProgressBar::with_draw_target(Some(1), ProgressDrawTarget::stderr_with_hz(10))
         .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))

@@ -18,6 +18,7 @@ pub(crate) struct Stats {
     pub(crate) lights: usize,
     pub(crate) shapes: u64,
     pub(crate) threads: usize,
+    pub(crate) lanes: &'static str,
     pub(crate) rays: Rays,
     pub(crate) frame_peak: Option<f32>,
     pub(crate) exposure: Option<f64>,

@@ -1,16 +1,20 @@
 //! How much light a picture is shown with, in stops: one more doubles what is
 //! shown of the same radiance.
 
+use crate::Film;
+use std::ops::AddAssign;
+use std::sync::LazyLock;
+
 /// The most stops, up or down, that a film may be shown with. No radiance that
 /// a film can hold needs more than 150.
 pub const MOST_STOPS: f64 = 1000.0;
 
-/// How many steps of [`auto_stops`] there are in a stop; so few that each is a
+/// How many steps of a [`LightMeter`] there are in a stop; so few that each is a
 /// short decimal number.
-const STEPS: f64 = 64.0;
+const STEPS: i32 = 64;
 
-/// One pixel in so many may be over-exposed by [`auto_stops`].
-const ONE_IN: usize = 100;
+/// One pixel in so many may be over-exposed by a [`LightMeter`].
+const ONE_IN: u64 = 100;
 
 /// 2^`stops`, what radiance is multiplied by; exact for whole stops.
 #[must_use]
@@ -18,14 +22,14 @@ pub fn exposure_factor(stops: f64) -> f64 {
     libm::exp2(stops)
 }
 
-/// The exposure that shows a picture when nobody has chosen one, in stops.
+/// Finds the exposure that shows a picture when nobody has chosen one.
 ///
-/// `brightest_components` has a number for each pixel of the whole frame, for a
-/// crop too, so that it is shown as a part of the whole: the largest component
-/// of the pixel, as [`Film::peak`](crate::Film::peak) of it gives. They are put
-/// in another order; that in which they come does not matter.
+/// It is shown the pixels of the whole frame, for a crop too, so that it is shown as
+/// a part of the whole. Where several threads each show a meter a part of them,
+/// the meters are added up. Neither order nor parts matter.
 ///
-/// The rule: of the pixels that are lit (above 0, and finite), take the value
+/// The rule: of the pixels that are lit (their largest component, as
+/// [`Film::peak`](crate::Film::peak) gives it, is above 0 and finite), take the value
 /// that 99 of 100 do not exceed; make that display white, or up to 1/64 stop
 /// less. So one bright pixel upsets nothing. In a picture of fewer than 100 lit
 /// pixels none is over-exposed. Where no pixel is lit, it is 0 stops.
@@ -33,34 +37,120 @@ pub fn exposure_factor(stops: f64) -> f64 {
 /// The result is a multiple of 1/64, the largest for which 2^stops times that
 /// value is at most 1. Its decimal digits are exact, so that a reader who gives
 /// back the number that was printed gets the same picture.
-#[must_use]
-pub fn auto_stops(brightest_components: &mut [f32]) -> f64 {
-    let Some(white) = white(brightest_components) else { return 0.0 };
-    let fits = |steps: f64| white * exposure_factor(steps / STEPS) <= 1.0;
-    // The logarithm's last digit may be on the wrong side of a step.
-    let mut steps = (-libm::log2(white) * STEPS).floor();
-    while !fits(steps) {
-        steps -= 1.0;
-    }
-    while fits(steps + 1.0) {
-        steps += 1.0;
-    }
-    // Adding 0 makes 0 of -0.
-    steps / STEPS + 0.0
+///
+/// The smaller a value, the more steps of 1/64 stop it takes, so it is enough to count
+/// the pixels by their steps.
+#[derive(Debug, Clone)]
+pub struct LightMeter {
+    /// The lit pixels of each number of steps, from [`FEWEST`] on.
+    counts: Vec<u64>,
 }
 
-/// The smallest lit value that 99 of 100 lit values do not exceed.
-fn white(values: &mut [f32]) -> Option<f64> {
-    let mut lit = 0;
-    for index in 0..values.len() {
-        if values[index] > 0.0 && values[index].is_finite() {
-            values.swap(lit, index);
-            lit += 1;
+/// The steps of the largest numbers: none reaches 2^128.
+const FEWEST: i32 = -128 * STEPS;
+/// The steps of the smallest number, 2^-149.
+const MOST: i32 = 149 * STEPS;
+
+impl LightMeter {
+    /// One that has seen no pixel yet.
+    #[must_use]
+    pub fn new() -> Self {
+        Self { counts: vec![0; (MOST - FEWEST + 1) as usize] }
+    }
+
+    /// Takes in these pixels.
+    pub fn see(&mut self, pixels: &[[f32; 3]]) {
+        let steps = Steps::table();
+        for pixel in pixels {
+            let peak = Film::peak(std::slice::from_ref(pixel));
+            if peak > 0.0 && peak.is_finite() {
+                self.counts[(steps.of(peak) - FEWEST) as usize] += 1;
+            }
         }
     }
-    let last = (lit - lit / ONE_IN).checked_sub(1)?;
-    let (_, white, _) = values[..lit].select_nth_unstable_by(last, f32::total_cmp);
-    Some(f64::from(*white))
+
+    /// The exposure for all pixels that it has seen, in stops.
+    #[must_use]
+    pub fn stops(&self) -> f64 {
+        let over_exposed = self.counts.iter().sum::<u64>() / ONE_IN;
+        let mut brighter = 0;
+        let white = self.counts.iter().position(|count| {
+            brighter += count;
+            brighter > over_exposed
+        });
+        white.map_or(0.0, |index| f64::from(index as i32 + FEWEST) / f64::from(STEPS))
+    }
+}
+
+impl Default for LightMeter {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl AddAssign<&Self> for LightMeter {
+    fn add_assign(&mut self, other: &Self) {
+        for (count, more) in self.counts.iter_mut().zip(&other.counts) {
+            *count += more;
+        }
+    }
+}
+
+/// How many steps each number takes, the most that leave it at 1 or below. They are
+/// read off a list of the 64 thresholds between 1 and 2, which are those of every
+/// octave.
+struct Steps {
+    /// The largest numbers that take so many steps down to be at most 1.
+    thresholds: [f64; STEPS as usize + 1],
+    /// Of each interval between 1 and 2, so narrow that there is at most one
+    /// threshold in it, the steps down of its lower end.
+    lowest: [u8; 1 << FRACTION],
+}
+
+/// How many bits of a number's fraction choose its interval.
+const FRACTION: u32 = 7;
+
+impl Steps {
+    /// The table. It is made when it is first asked for.
+    fn table() -> &'static Self {
+        static TABLE: LazyLock<Steps> = LazyLock::new(Steps::new);
+        &TABLE
+    }
+
+    fn new() -> Self {
+        let thresholds = std::array::from_fn(|down| {
+            let factor = exposure_factor(-(down as f64) / f64::from(STEPS));
+            // By halving the numbers from 1, which fits, to 2, which does not; but the
+            // last threshold is beyond all of them.
+            let (mut fits, mut too_large) = (1_f64.to_bits(), 2_f64.to_bits());
+            while too_large - fits > 1 {
+                let middle = fits.midpoint(too_large);
+                if f64::from_bits(middle) * factor <= 1.0 {
+                    fits = middle;
+                } else {
+                    too_large = middle;
+                }
+            }
+            f64::from_bits(fits)
+        });
+        let lowest = std::array::from_fn(|interval| {
+            let start = 1.0 + interval as f64 / f64::from(1 << FRACTION);
+            thresholds.partition_point(|threshold| *threshold < start) as u8
+        });
+        Self { thresholds, lowest }
+    }
+
+    /// The steps of a number that is above 0 and finite.
+    #[inline]
+    fn of(&self, peak: f32) -> i32 {
+        // All that are above 0 are normal as doubles.
+        let bits = f64::from(peak).to_bits();
+        let exponent = (bits >> 52) as i32 - 1023;
+        let fraction = f64::from_bits(bits & ((1 << 52) - 1) | 1_f64.to_bits());
+        let down = self.lowest[(bits >> (52 - FRACTION)) as usize % (1 << FRACTION)];
+        let further = fraction > self.thresholds[usize::from(down)];
+        -STEPS * exponent - i32::from(down) - i32::from(further)
+    }
 }
 
 #[cfg(test)]
@@ -76,6 +166,13 @@ mod tests {
             (state >> 11) as f64 / (1_u64 << 53) as f64
         };
         (0..count).map(|_| libm::exp2(low + (high - low) * random()) as f32).collect()
+    }
+
+    /// The stops for pixels with these largest components.
+    fn auto_stops(values: &[f32]) -> f64 {
+        let mut meter = LightMeter::new();
+        meter.see(&values.iter().map(|v| [0.0, *v, v / 2.0]).collect::<Vec<_>>());
+        meter.stops()
     }
 
     /// The rule by its words: sorts, counts, and tries one step after the other.
@@ -111,7 +208,7 @@ mod tests {
                 }
             }
             let expected = stops_by_its_words(&values);
-            assert_eq!(auto_stops(&mut values), expected, "case {case}");
+            assert_eq!(auto_stops(&values), expected, "case {case}");
         }
     }
 
@@ -124,7 +221,7 @@ mod tests {
             .chain((-149..=127).map(|e| libm::exp2(f64::from(e)) as f32))
             .enumerate()
         {
-            let stops = auto_stops(&mut [p]);
+            let stops = auto_stops(&[p]);
             assert!(exposure_factor(stops) * f64::from(p) <= 1.0, "case {case}: {p}");
             assert!(exposure_factor(stops + step) * f64::from(p) > 1.0, "case {case}: {p}");
             assert_eq!(stops * 64.0, (stops * 64.0).round(), "case {case}: {p}");
@@ -136,47 +233,47 @@ mod tests {
     #[test]
     fn powers_of_two_are_shown_at_white() {
         for e in -149..=127_i32 {
-            let stops = auto_stops(&mut [libm::exp2(f64::from(e)) as f32]);
+            let stops = auto_stops(&[libm::exp2(f64::from(e)) as f32]);
             assert_eq!(stops, f64::from(-e));
         }
-        assert_eq!(auto_stops(&mut [1.0]).to_bits(), 0, "and not -0");
+        assert_eq!(auto_stops(&[1.0]).to_bits(), 0, "and not -0");
     }
 
     #[test]
     fn one_bright_pixel_changes_nothing() {
         let picture: Vec<f32> = (0..10_000_u16).map(|i| f32::from(i % 97) * 0.03).collect();
-        let expected = auto_stops(&mut picture.clone());
+        let expected = auto_stops(&picture);
         for bright in [1e30, f32::MAX, f32::INFINITY, f32::NAN] {
             for place in [0, 5000, 9999] {
                 let mut picture = picture.clone();
                 picture[place] = bright;
-                assert_eq!(auto_stops(&mut picture), expected, "{bright} at {place}");
+                assert_eq!(auto_stops(&picture), expected, "{bright} at {place}");
             }
         }
         // A hundredth of them is too few to count, one more is not.
         let mut picture = vec![0.25_f32; 1000];
         picture[..10].fill(16.0);
-        assert_eq!(auto_stops(&mut picture.clone()), 2.0);
+        assert_eq!(auto_stops(&picture), 2.0);
         picture[..11].fill(16.0);
-        assert_eq!(auto_stops(&mut picture), -4.0);
+        assert_eq!(auto_stops(&picture), -4.0);
     }
 
     #[test]
     fn what_is_dark_or_no_number_does_not_count() {
         let mut picture = vec![0.0, f32::NAN, -1.0, f32::INFINITY, 0.5, f32::NEG_INFINITY, -0.0];
         picture.extend([0.0; 500]);
-        assert_eq!(auto_stops(&mut picture), 1.0);
+        assert_eq!(auto_stops(&picture), 1.0);
     }
 
     #[test]
     fn twice_the_light_is_one_stop_less() {
         for case in 0..100 {
             let values = numbers(case, 300, -20.0, 20.0);
-            let stops = auto_stops(&mut values.clone());
+            let stops = auto_stops(&values);
             for doublings in [1, 2, 17, -1, -40] {
                 let factor = libm::exp2(f64::from(doublings)) as f32;
-                let mut scaled: Vec<f32> = values.iter().map(|v| v * factor).collect();
-                assert_eq!(auto_stops(&mut scaled), stops - f64::from(doublings), "case {case}");
+                let scaled: Vec<f32> = values.iter().map(|v| v * factor).collect();
+                assert_eq!(auto_stops(&scaled), stops - f64::from(doublings), "case {case}");
             }
         }
     }
@@ -186,27 +283,61 @@ mod tests {
         for case in 0..50 {
             let mut values = numbers(case, 777, -6.0, 6.0);
             values[case as usize] = f32::NAN;
-            let expected = auto_stops(&mut values.clone());
+            let expected = auto_stops(&values);
             for turn in [1, 100, 500] {
                 let mut other = values.clone();
                 other.rotate_left(turn);
                 other[..300].reverse();
-                assert_eq!(auto_stops(&mut other), expected, "case {case}");
-                // What is left behind is the same picture.
-                assert_eq!(auto_stops(&mut other), expected, "case {case}");
+                assert_eq!(auto_stops(&other), expected, "case {case}");
+            }
+        }
+    }
+
+    #[test]
+    fn meters_add_up() {
+        for case in 0..50 {
+            let values: Vec<_> =
+                numbers(case, 1000, -6.0, 6.0).into_iter().map(|v| [v, 0.1, 0.0]).collect();
+            let mut whole = LightMeter::new();
+            whole.see(&values);
+            let mut sum = LightMeter::default();
+            for part in values.chunks(1 + case as usize * 20) {
+                let mut meter = LightMeter::new();
+                meter.see(part);
+                sum += &meter;
+            }
+            assert_eq!((sum.stops(), sum.counts), (whole.stops(), whole.counts), "case {case}");
+        }
+    }
+
+    /// On either side of each step, against the definition.
+    #[test]
+    fn steps_change_exactly_where_the_rule_says() {
+        let steps = Steps::table();
+        let fits = |v: f32, steps: i32| {
+            f64::from(v) * exposure_factor(f64::from(steps) / f64::from(STEPS)) <= 1.0
+        };
+        for step in FEWEST..=MOST {
+            let near = libm::exp2(f64::from(-step) / f64::from(STEPS)) as f32;
+            for bits in near.to_bits().saturating_sub(2)..=near.to_bits() + 2 {
+                let v = f32::from_bits(bits);
+                if v > 0.0 && v.is_finite() {
+                    let found = steps.of(v);
+                    assert!(fits(v, found) && !fits(v, found + 1), "{v:e} takes {found} steps");
+                }
             }
         }
     }
 
     #[test]
     fn small_and_black_pictures() {
-        assert_eq!(auto_stops(&mut []), 0.0);
-        assert_eq!(auto_stops(&mut [0.0; 5]), 0.0);
-        assert_eq!(auto_stops(&mut [f32::NAN, f32::INFINITY]), 0.0);
-        assert_eq!(auto_stops(&mut [4.0]), -2.0);
-        assert_eq!(auto_stops(&mut [4.0, 1.0]), -2.0, "the brighter one");
-        assert_eq!(auto_stops(&mut [0.0, 1.0]), 0.0);
-        assert_eq!(auto_stops(&mut [3.0]), -1.59375, "-log2(3) is -1.58496");
+        assert_eq!(auto_stops(&[]), 0.0);
+        assert_eq!(auto_stops(&[0.0; 5]), 0.0);
+        assert_eq!(auto_stops(&[f32::NAN, f32::INFINITY]), 0.0);
+        assert_eq!(auto_stops(&[4.0]), -2.0);
+        assert_eq!(auto_stops(&[4.0, 1.0]), -2.0, "the brighter one");
+        assert_eq!(auto_stops(&[0.0, 1.0]), 0.0);
+        assert_eq!(auto_stops(&[3.0]), -1.59375, "-log2(3) is -1.58496");
     }
 
     #[test]

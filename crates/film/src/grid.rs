@@ -43,6 +43,11 @@ impl<T: Copy> Grid<T> {
         &self.values
     }
 
+    /// The same, to be written to.
+    pub(crate) fn values_mut(&mut self) -> &mut [T] {
+        &mut self.values
+    }
+
     /// The value at column `x` and row `y` of the frame.
     ///
     /// # Panics

@@ -1,5 +1,5 @@
 use crate::grid::Grid;
-use crate::{FilmError, Size, Window};
+use crate::{FilmError, Size, Strip, Window};
 
 /// What the ray through the middle of a pixel meets first.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -115,6 +115,18 @@ impl Layers {
     #[must_use]
     pub fn pixel(&self, x: u32, y: u32) -> LayerPixel {
         self.grid.get(x, y)
+    }
+
+    /// The layers in strips of that width and of `ROWS` rows, as those of
+    /// [`Film::strips_mut`](crate::Film::strips_mut).
+    ///
+    /// # Panics
+    /// Where `width` or `ROWS` is 0.
+    pub fn strips_mut<const ROWS: usize>(
+        &mut self,
+        width: u32,
+    ) -> impl Iterator<Item = Strip<'_, LayerPixel, ROWS>> {
+        self.grid.strips_mut(width)
     }
 
     /// Writes `values`, row by row, to the pixels of `tile` (in the frame's

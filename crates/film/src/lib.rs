@@ -19,14 +19,14 @@
 //! Radiance is shown by an exposure, which a rule finds for the whole frame:
 //!
 //! ```
-//! use lancer_film::{Display, Film, Size, auto_stops};
+//! use lancer_film::{Display, Film, LightMeter, Size};
 //!
 //! let frame = Size::new(3, 1);
 //! let mut film = Film::new(frame, frame.window(), Display::Exposed)?;
 //! film.put(frame.window(), &[[4.0, 3.0, 2.0], [0.0, 0.0, 0.0], [0.1, 0.5, 0.1]]);
-//! let mut brightest: Vec<f32> =
-//!     film.pixels().iter().map(|pixel| Film::peak(&[*pixel])).collect();
-//! film.set_stops(auto_stops(&mut brightest));
+//! let mut meter = LightMeter::new();
+//! meter.see(film.pixels());
+//! film.set_stops(meter.stops());
 //! assert_eq!(film.stops(), Some(-2.0));
 //! # Ok::<(), lancer_film::FilmError>(())
 //! ```
@@ -36,9 +36,11 @@ mod exposure;
 mod film;
 mod grid;
 mod layers;
+mod strips;
 mod window;
 
-pub use exposure::{MOST_STOPS, auto_stops, exposure_factor};
+pub use exposure::{LightMeter, MOST_STOPS, exposure_factor};
 pub use film::{Display, Film, FilmError};
 pub use layers::{LayerKind, LayerPixel, Layers};
+pub use strips::Strip;
 pub use window::{Size, Window};

@@ -91,30 +91,42 @@ impl Window {
         })
     }
 
-    /// How many [`tile`](Self::tile)s of that side it is cut into.
-    #[must_use]
-    pub const fn tile_count(self, side: u32) -> u64 {
-        self.width.div_ceil(side) as u64 * self.height.div_ceil(side) as u64
+    /// The frame's pixels that are not in this window, which lies in it, as windows
+    /// above, to the left, to the right and below, as far as there are such.
+    pub fn around(self, frame: Size) -> impl Iterator<Item = Self> {
+        // The window's sides are not beyond those of the frame, so they fit.
+        let (right, bottom) = (self.right() as u32, self.bottom() as u32);
+        let beside = |x, width| Self { x, width, ..self };
+        let across = |y, height| Self { x: 0, y, width: frame.width, height };
+        let all = [
+            across(0, self.y),
+            beside(0, self.x),
+            beside(right, frame.width.saturating_sub(right)),
+            across(bottom, frame.height.saturating_sub(bottom)),
+        ];
+        all.into_iter().filter(|window| window.pixels() > 0)
     }
 
-    /// Tile number `index` of the squares of `side` pixels that the window is
-    /// cut into, row by row from its top left corner; those at the right and
-    /// at the bottom may be smaller.
+    /// It in strips of that width and `rows` rows, row by row from its top left
+    /// corner; those at the right and at the bottom may be smaller.
     ///
     /// # Panics
-    /// Where `index` is not below [`tile_count`](Self::tile_count).
+    /// Where `width` or `rows` is 0.
+    pub fn strips(self, width: u32, rows: u32) -> impl Iterator<Item = Self> {
+        (0..self.height).step_by(rows as usize).flat_map(move |top| {
+            (0..self.width).step_by(width as usize).map(move |left| Self {
+                x: self.x + left,
+                y: self.y + top,
+                width: width.min(self.width - left),
+                height: rows.min(self.height - top),
+            })
+        })
+    }
+
+    /// How many [`strips`](Self::strips) of that width and so many rows there are.
     #[must_use]
-    pub fn tile(self, side: u32, index: u64) -> Self {
-        assert!(index < self.tile_count(side), "tile {index} is outside the window");
-        let columns = u64::from(self.width.div_ceil(side));
-        // Both are at most the window's sides, so they fit.
-        let (left, top) = ((index % columns) as u32 * side, (index / columns) as u32 * side);
-        Self {
-            x: self.x + left,
-            y: self.y + top,
-            width: side.min(self.width - left),
-            height: side.min(self.height - top),
-        }
+    pub const fn strip_count(self, width: u32, rows: u32) -> u64 {
+        self.width.div_ceil(width) as u64 * self.height.div_ceil(rows) as u64
     }
 }
 
@@ -129,20 +141,45 @@ mod tests {
     use super::*;
 
     #[test]
-    fn tiles_cover_each_pixel_once() {
-        for (width, height, side) in [(1, 1, 16), (16, 16, 16), (33, 17, 16), (5, 40, 7)] {
+    fn strips_cover_each_pixel_once() {
+        for (width, height, side, rows) in
+            [(1, 1, 16, 16), (16, 16, 16, 16), (33, 17, 16, 4), (5, 40, 7, 16)]
+        {
             let window = Window { x: 3, y: 2, width, height };
             let mut seen = vec![0_u8; (width * height) as usize];
-            for index in 0..window.tile_count(side) {
-                let tile = window.tile(side, index);
-                assert_eq!(tile.intersection(window), Some(tile));
-                for y in tile.y..tile.y + tile.height {
-                    for x in tile.x..tile.x + tile.width {
+            let mut count = 0;
+            for strip in window.strips(side, rows) {
+                count += 1;
+                assert_eq!(strip.intersection(window), Some(strip));
+                assert!(strip.width <= side && strip.height <= rows);
+                for y in strip.y..strip.y + strip.height {
+                    for x in strip.x..strip.x + strip.width {
                         seen[((y - 2) * width + (x - 3)) as usize] += 1;
                     }
                 }
             }
-            assert!(seen.iter().all(|&n| n == 1), "{window} in tiles of {side}");
+            assert!(seen.iter().all(|&n| n == 1), "{window} in strips of {side}x{rows}");
+            assert_eq!(count, window.strip_count(side, rows));
+        }
+    }
+
+    #[test]
+    fn a_window_and_what_is_around_it_are_the_frame() {
+        let frame = Size::new(7, 5);
+        for (x, y, width, height) in
+            [(0, 0, 7, 5), (2, 1, 3, 2), (0, 0, 1, 1), (6, 4, 1, 1), (0, 2, 7, 1), (3, 0, 2, 5)]
+        {
+            let window = Window { x, y, width, height };
+            let mut seen = [[0_u8; 7]; 5];
+            for part in std::iter::once(window).chain(window.around(frame)) {
+                assert!(part.fits(frame));
+                for y in part.y..part.y + part.height {
+                    for x in part.x..part.x + part.width {
+                        seen[y as usize][x as usize] += 1;
+                    }
+                }
+            }
+            assert_eq!(seen, [[1; 7]; 5], "{window}");
         }
     }
 

@@ -1,9 +1,9 @@
 use crate::{Engine, RayCounts, Rgb, Tracer};
-use lancer_film::{Display, Film, FilmError, LayerPixel, Layers, Size, Window, auto_stops};
+use lancer_film::{Display, Film, FilmError, LayerPixel, Layers, LightMeter, Size, Strip, Window};
 use lancer_kernel::KernelSettings;
 use lancer_scene::{Exposure, Scene};
-use rayon::prelude::*;
 use std::num::NonZeroUsize;
+use std::ops::AddAssign;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
@@ -25,7 +25,8 @@ pub struct RenderSettings<'a> {
     pub layers: bool,
     /// How rays are followed.
     pub kernel: KernelSettings,
-    /// How many threads to use; one for each core by default.
+    /// How many threads to start for it; by default those of the rayon pool that it
+    /// is called in, one for each core where nobody has made another.
     pub threads: Option<NonZeroUsize>,
     /// Called now and then, from any thread, as work goes on.
     pub progress: Option<&'a Progress<'a>>,
@@ -104,50 +105,85 @@ pub fn render(
     let window = settings.window.unwrap_or_else(|| frame.window());
     let film = Film::new(frame, window, engine.display())?;
     let layers = settings.layers.then(|| Layers::new(frame, window)).transpose()?;
-    let exposure = Showing::new(scene, engine, settings);
-    let to_do =
-        if settings.for_display && exposure.looks_at_frame() { frame.window() } else { window };
-    let is_whole = to_do == frame.window();
-    let brightest = (is_whole && exposure == Showing::AutoExposed)
-        .then(|| reserve(frame.pixels()))
-        .transpose()?;
+    match settings.threads {
+        None => fill(scene, engine, settings, film, layers),
+        Some(threads) => {
+            // Others would have nothing to do.
+            let most = usize::try_from(frame.window().strip_count(TILE_SIDE, TILE_SIDE));
+            let threads = threads.get().min(most.unwrap_or(usize::MAX));
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(threads)
+                .build()
+                .map_err(|reason| RenderError::Threads { threads, reason })?;
+            pool.install(|| fill(scene, engine, settings, film, layers))
+        }
+    }
+}
 
-    let threads = threads_for(settings.threads, to_do.tile_count(TILE_SIDE));
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .map_err(|reason| RenderError::Threads { threads, reason })?;
+/// Renders to a film, and to layers where there are any, on the threads of the pool
+/// that it is called in.
+fn fill(
+    scene: &Scene,
+    engine: &dyn Engine,
+    settings: &RenderSettings<'_>,
+    mut film: Film,
+    mut layers: Option<Layers>,
+) -> Result<Rendered, RenderError> {
+    let (frame, window) = (film.frame(), film.window());
+    let showing = Showing::new(scene, engine, settings);
+    let to_do =
+        if settings.for_display && showing.looks_at_frame() { frame.window() } else { window };
+    let is_whole = to_do == frame.window();
+    let threads = rayon::current_num_threads();
+    let tiles = to_do.strip_count(TILE_SIDE, TILE_SIDE);
+    let width = strip_width(tiles, threads);
 
     let tracer = engine.prepare(scene, &settings.kernel);
     let work = Work {
         engine: engine.name(),
         tracer: &*tracer,
-        to_do,
         settings,
+        metered: is_whole && showing == Showing::AutoExposed,
+        pixels: to_do.pixels(),
         pixels_done: AtomicU64::new(0),
-        picture: Mutex::new(Picture {
-            film,
-            layers,
-            brightest,
-            peak: 0.0,
-            counts: RayCounts::default(),
-        }),
     };
-    pool.install(|| {
-        (0..to_do.tile_count(TILE_SIDE)).into_par_iter().try_for_each(|index| work.tile(index))
-    })?;
+    let mut layer_strips = layers.as_mut().map(|layers| layers.strips_mut(width));
+    let kept = film.strips_mut(width).map(move |film| Job {
+        window: film.window(),
+        kept: Some((film, layer_strips.as_mut().and_then(Iterator::next))),
+    });
+    // Where all of the frame must be looked at, but not all is kept.
+    let others = window.around(frame).take_while(|_| to_do != window);
+    let others = others.flat_map(|part| part.strips(width, TILE_SIDE));
+    let jobs = Mutex::new(kept.chain(others.map(|window| Job { window, kept: None })));
+    let found = rayon::broadcast(|_| work.do_jobs(&jobs));
+    drop(jobs);
 
-    let Picture { mut film, layers, brightest, peak, counts } =
-        work.picture.into_inner().unwrap_or_else(PoisonError::into_inner);
-    match (exposure, brightest) {
-        (Showing::Exposed(stops), _) => film.set_stops(stops),
-        (_, Some(mut brightest)) => film.set_stops(auto_stops(&mut brightest)),
-        _ => {}
+    let mut all = Found::new(work.metered);
+    for found in found {
+        all += found?;
+    }
+    match showing {
+        Showing::Exposed(stops) => film.set_stops(stops),
+        _ => {
+            if let Some(meter) = &all.meter {
+                film.set_stops(meter.stops());
+            }
+        }
     }
     if is_whole {
-        film.set_frame_peak(peak);
+        film.set_frame_peak(all.peak);
     }
-    Ok(Rendered { film, layers, counts, threads })
+    let threads = threads.min(usize::try_from(tiles).unwrap_or(usize::MAX));
+    Ok(Rendered { film, layers, counts: all.counts, threads })
+}
+
+/// How wide the strips are that threads take to work on. Neighbouring tiles
+/// share what they read and write, so a thread takes several at a time; but
+/// no more than a 64th of its share, so that all are done at about the same time.
+fn strip_width(tiles: u64, threads: usize) -> u32 {
+    const MOST_TILES: u64 = 16;
+    TILE_SIDE * (tiles / (64 * threads as u64)).clamp(1, MOST_TILES) as u32
 }
 
 /// By which rule a film is shown.
@@ -172,101 +208,101 @@ impl Showing {
     }
 }
 
-/// A number for each pixel.
-fn reserve(pixels: u64) -> Result<Vec<f32>, FilmError> {
-    let out_of_memory = FilmError::OutOfMemory { pixels, bytes: pixels.saturating_mul(4) };
-    let count = usize::try_from(pixels).map_err(|_| out_of_memory)?;
-    Vec::<f32>::new().try_reserve_exact(count).map_err(|_| out_of_memory)?;
-    Ok(vec![0.0; count])
+/// The height of strips, and the side of tiles, as a number of slices.
+const ROWS: usize = TILE_SIDE as usize;
+
+/// A part of the frame that one thread works on.
+struct Job<'a> {
+    window: Window,
+    /// Where the pixels go, and what they show first, if they are kept.
+    kept: Option<(Strip<'a, Rgb, ROWS>, Option<Strip<'a, LayerPixel, ROWS>>)>,
 }
 
-/// No more threads than tiles: others would have nothing to do.
-fn threads_for(asked: Option<NonZeroUsize>, tiles: u64) -> usize {
-    let cores = || std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
-    let threads = asked.unwrap_or_else(cores).get();
-    threads.min(usize::try_from(tiles).unwrap_or(usize::MAX)).max(1)
+/// What a thread knows about the pixels that it has done. The sum is the same in
+/// whichever order, and by whichever threads, they are done.
+struct Found {
+    counts: RayCounts,
+    peak: f32,
+    /// Where the exposure depends on the pixels.
+    meter: Option<LightMeter>,
+}
+
+impl Found {
+    fn new(metered: bool) -> Self {
+        let meter = metered.then(LightMeter::new);
+        Self { counts: RayCounts::default(), peak: 0.0, meter }
+    }
+}
+
+impl AddAssign for Found {
+    fn add_assign(&mut self, other: Self) {
+        self.counts += other.counts;
+        self.peak = if other.peak > self.peak { other.peak } else { self.peak };
+        if let (Some(meter), Some(other)) = (&mut self.meter, &other.meter) {
+            *meter += other;
+        }
+    }
 }
 
 /// What the threads share while a picture is rendered.
 struct Work<'a> {
     engine: &'a str,
     tracer: &'a dyn Tracer,
-    to_do: Window,
     settings: &'a RenderSettings<'a>,
+    /// Whether the exposure depends on the pixels.
+    metered: bool,
+    /// How many pixels there are to do.
+    pixels: u64,
     pixels_done: AtomicU64,
-    picture: Mutex<Picture>,
-}
-
-/// What the tiles are put together into. Each part is the same in whichever
-/// order they arrive: pixels have places, counts are whole numbers, and the
-/// largest value of a set needs no order.
-struct Picture {
-    film: Film,
-    layers: Option<Layers>,
-    /// The brightest component of each pixel of the frame.
-    brightest: Option<Vec<f32>>,
-    peak: f32,
-    counts: RayCounts,
 }
 
 impl Work<'_> {
-    fn tile(&self, index: u64) -> Result<(), RenderError> {
+    /// Does jobs until there are no more.
+    fn do_jobs<'a>(
+        &self,
+        jobs: &Mutex<impl Iterator<Item = Job<'a>>>,
+    ) -> Result<Found, RenderError> {
+        let mut found = Found::new(self.metered);
+        let next = || jobs.lock().unwrap_or_else(PoisonError::into_inner).next();
+        while let Some(mut job) = next() {
+            for tile in job.window.strips(TILE_SIDE, TILE_SIDE) {
+                self.tile(tile, &mut job, &mut found)?;
+            }
+            if let Some(progress) = self.settings.progress {
+                let pixels = job.window.pixels();
+                let done = self.pixels_done.fetch_add(pixels, Ordering::Relaxed);
+                progress(done + pixels, self.pixels);
+            }
+        }
+        Ok(found)
+    }
+
+    fn tile(&self, tile: Window, job: &mut Job<'_>, found: &mut Found) -> Result<(), RenderError> {
         if self.settings.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed)) {
             return Err(RenderError::Interrupted);
         }
-        let tile = self.to_do.tile(TILE_SIDE, index);
-        let mut buffer: [Rgb; (TILE_SIDE * TILE_SIDE) as usize] =
-            [[0.0; 3]; (TILE_SIDE * TILE_SIDE) as usize];
+        let mut buffer = [[0.0; 3]; ROWS * ROWS];
         let pixels = &mut buffer[..tile.pixels() as usize];
-        let mut counts = RayCounts::default();
-        self.tracer.tile(tile, pixels, &mut counts);
-        self.deliver(tile, pixels, counts);
-        if self.settings.layers {
-            self.layers(tile)?;
-        }
-
-        if let Some(progress) = self.settings.progress {
-            let done = self.pixels_done.fetch_add(tile.pixels(), Ordering::Relaxed);
-            progress(done + tile.pixels(), self.to_do.pixels());
-        }
-        Ok(())
-    }
-
-    fn deliver(&self, tile: Window, pixels: &[Rgb], counts: RayCounts) {
+        self.tracer.tile(tile, pixels, &mut found.counts);
         let peak = Film::peak(pixels);
-        let mut picture = self.picture.lock().unwrap_or_else(PoisonError::into_inner);
-        picture.counts += counts;
-        picture.peak = if peak > picture.peak { peak } else { picture.peak };
-        if let Some(brightest) = &mut picture.brightest {
-            let frame = self.to_do;
-            for (row, y) in pixels.chunks_exact(tile.width as usize).zip(tile.y..) {
-                let start = y as usize * frame.width as usize + tile.x as usize;
-                for (brightest, pixel) in brightest[start..].iter_mut().zip(row) {
-                    *brightest = Film::peak(std::slice::from_ref(pixel));
-                }
+        found.peak = if peak > found.peak { peak } else { found.peak };
+        if let Some(meter) = &mut found.meter {
+            meter.see(pixels);
+        }
+        if let Some((film, layers)) = &mut job.kept {
+            film.put(tile, pixels);
+            if let Some(layers) = layers {
+                layers.put(tile, &self.first_hits(tile)?);
             }
         }
-        let Some(kept) = tile.intersection(picture.film.window()) else { return };
-        for y in kept.y..kept.y + kept.height {
-            let start = ((y - tile.y) * tile.width + (kept.x - tile.x)) as usize;
-            let row = Window { y, height: 1, ..kept };
-            picture.film.put(row, &pixels[start..start + kept.width as usize]);
-        }
+        Ok(())
     }
 
-    /// What the rays of the pixels that are kept meet first.
-    fn layers(&self, tile: Window) -> Result<(), RenderError> {
-        let window = self.settings.window.unwrap_or(self.to_do);
-        let Some(kept) = tile.intersection(window) else { return Ok(()) };
-        let rows = kept.y..kept.y + kept.height;
-        let places = rows.flat_map(|y| (kept.x..kept.x + kept.width).map(move |x| (x, y)));
-        let hits: Option<Vec<LayerPixel>> =
-            places.map(|(x, y)| self.tracer.first_hit(x, y)).collect();
-        let hits = hits.ok_or_else(|| RenderError::NoLayers { engine: self.engine.to_owned() })?;
-        let mut picture = self.picture.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(layers) = &mut picture.layers {
-            layers.put(kept, &hits);
-        }
-        Ok(())
+    /// What the rays of the pixels of a tile meet first.
+    fn first_hits(&self, tile: Window) -> Result<Vec<LayerPixel>, RenderError> {
+        let rows = tile.y..tile.y + tile.height;
+        let places = rows.flat_map(|y| (tile.x..tile.x + tile.width).map(move |x| (x, y)));
+        let hits: Option<_> = places.map(|(x, y)| self.tracer.first_hit(x, y)).collect();
+        hits.ok_or_else(|| RenderError::NoLayers { engine: self.engine.to_owned() })
     }
 }

@@ -1,6 +1,6 @@
 //! Cells of a checker along one coordinate, and of two together.
 
-use crate::lanes::{Lanes, Mask, Real};
+use crate::lanes::{Lanes, Mask, Real, Vectors};
 use crate::primitive::Cell;
 
 const LARGEST: f64 = 4_503_599_627_370_496.0; // 2^52
@@ -23,17 +23,81 @@ pub(crate) fn cell(i: f64, j: f64) -> Cell {
     }
 }
 
-/// In which lanes two coordinates, each in cells, are in a cell of the second
-/// kind; `None` where one of them is mixed.
+/// Which of the two colours of a checker points show.
+#[derive(Debug, Clone, Copy)]
+pub struct LaneCells<M> {
+    /// Where it is the checker's own.
+    pub second: M,
+    /// Where that is certain; one by one it must be found out elsewhere.
+    pub certain: M,
+}
+
+/// The cells at two coordinates, each in cells: certain where neither is mixed.
 #[inline(always)]
-pub(crate) fn second<L: Lanes>(lanes: L, i: L::Real, j: L::Real) -> Option<L::Mask> {
+pub(crate) fn cells<L: Lanes>(lanes: L, i: L::Real, j: L::Real) -> LaneCells<L::Mask> {
     let largest = lanes.splat(LARGEST);
-    let is_told = i.abs().le(largest) & j.abs().le(largest);
-    if (!is_told).any() {
-        return None;
-    }
+    let certain = i.abs().le(largest) & j.abs().le(largest);
     let [i, j] = [odd_lanes(i), odd_lanes(j)];
-    Some((i & !j) | (j & !i))
+    LaneCells { second: (i & !j) | (j & !i), certain }
+}
+
+/// The cells of the meridians and parallels of a ball at unit normals: certain
+/// but within 1e-5 degrees of a border.
+///
+/// Angles are found to within 2e-8 radians (Abramowitz and Stegun, *Handbook of
+/// Mathematical Functions*, 4.4.49), and 1e-5 degrees is eight times as much.
+#[inline(always)]
+pub(crate) fn on_globe<L: Lanes>(
+    lanes: L,
+    normal: &Vectors<L::Real>,
+    angle: f64,
+) -> LaneCells<L::Mask> {
+    const NEAR: f64 = 1e-5;
+    let across = normal.x.mul_add(normal.x, normal.y * normal.y).sqrt();
+    let longitude = about_turn(lanes, normal.y, normal.x);
+    let latitude = about_turn(lanes, normal.z, across);
+    let half_turn = lanes.splat(180.0);
+    let latitude = latitude.gt(half_turn).select(latitude - 360.0, latitude);
+    let per_degree = lanes.splat(1.0 / angle);
+    let (i, j) = (longitude * per_degree, latitude * per_degree);
+    let slack = lanes.splat(NEAR / angle);
+    let inside = |x: L::Real| {
+        let fraction = x - x.floor();
+        fraction.gt(slack) & fraction.lt(lanes.splat(1.0) - slack)
+    };
+    // Where a turn begins there is a border, whole number or not.
+    let begun = longitude.gt(lanes.splat(NEAR)) & longitude.lt(lanes.splat(360.0 - NEAR));
+    let LaneCells { second, certain } = cells(lanes, i, j);
+    LaneCells { second, certain: certain & inside(i) & inside(j) & begun }
+}
+
+/// About the angle of (x, y) in degrees from 0 to 360, to within 2e-8 radians; NaN at
+/// the origin.
+#[inline(always)]
+fn about_turn<L: Lanes>(lanes: L, y: L::Real, x: L::Real) -> L::Real {
+    const TERMS: [f64; 8] = [
+        -0.333_331_452_8,
+        0.199_935_508_5,
+        -0.142_088_994_4,
+        0.106_562_639_3,
+        -0.075_289_640_0,
+        0.042_909_613_8,
+        -0.016_165_736_7,
+        0.002_866_225_7,
+    ];
+    let zero = lanes.splat(0.0);
+    let (a, b) = (x.abs(), y.abs());
+    let is_steep = b.gt(a);
+    let ratio = is_steep.select(a, b) / is_steep.select(b, a);
+    let square = ratio * ratio;
+    let mut sum = lanes.splat(TERMS[7]);
+    for term in TERMS[..7].iter().rev() {
+        sum = sum.mul_add(square, lanes.splat(*term));
+    }
+    let degrees = sum.mul_add(square, lanes.splat(1.0)) * ratio * 1.0_f64.to_degrees();
+    let degrees = is_steep.select(-degrees + 90.0, degrees);
+    let degrees = x.lt(zero).select(-degrees + 180.0, degrees);
+    y.lt(zero).select(-degrees + 360.0, degrees)
 }
 
 /// Whether floor(x) is odd.
@@ -56,6 +120,8 @@ pub(crate) fn turn(x: f64, y: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lanes::One;
+    use lancer_math::Vector;
 
     #[test]
     fn parity_is_that_of_floor() {
@@ -81,6 +147,34 @@ mod tests {
         assert_eq!(cell(-0.5, 0.5), Cell::Second);
         assert_eq!(cell(-0.5, 1.5), Cell::First);
         assert_eq!(cell(1e300, 0.0), Cell::Mixed);
+    }
+
+    #[test]
+    fn what_is_certain_on_a_globe_is_right() {
+        let mut rng = fastrand::Rng::with_seed(4);
+        let mut uncertain = 0;
+        for case in 0..200_000 {
+            let mut next = || 2.0 * rng.f64() - 1.0;
+            let v = Vector::new(next(), next(), next());
+            // Also near and on the borders at the poles and at the beginning of a turn.
+            let v = match case % 8 {
+                0 => Vector::new(v.x, v.y * 1e-8, v.z),
+                1 => Vector::new(v.x * 1e-9, v.y * 1e-9, v.z),
+                2 => Vector::new(v.x, 0.0, v.z),
+                _ => v,
+            };
+            let n = v / v.norm();
+            let angle = [90.0 / std::f64::consts::PI, 10.0, 0.37, 50.0, 180.0][case % 5];
+            let latitude = libm::atan2(n.z, libm::hypot(n.x, n.y)).to_degrees();
+            let expected = cell(turn(n.x, n.y) / angle, latitude / angle);
+            let found = on_globe(One, &Vectors::splat(One, &n), angle);
+            if found.certain.any() {
+                assert_eq!(found.second.any(), expected == Cell::Second, "{n:?} {angle}");
+            } else {
+                uncertain += 1;
+            }
+        }
+        assert!(uncertain < 100_000, "{uncertain}");
     }
 
     #[test]

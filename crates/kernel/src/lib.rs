@@ -40,6 +40,7 @@ mod rays;
 mod settings;
 mod shapes;
 
+pub use checker::LaneCells;
 use crossing::Crossing;
 pub mod lanes;
 pub use hit::{Hit, SurfacePoint};

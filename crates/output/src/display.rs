@@ -2,6 +2,7 @@
 
 use crate::srgb_codes::{Codes8, code16};
 use lancer_film::{Display, Film};
+use rayon::prelude::*;
 
 /// Why a film cannot be shown: it does not know enough of the frame that it is
 /// of.
@@ -22,36 +23,70 @@ pub enum NotShowable {
     ExposureUnknown,
 }
 
-/// Codes from 0 to 255 for each component, row by row.
-pub(crate) fn codes8(film: &Film) -> Result<Vec<u8>, NotShowable> {
-    let values = film.pixels().iter().flatten();
-    match film.display() {
+/// `head`, and behind it codes from 0 to 255 for each component, row by row.
+pub(crate) fn codes8(film: &Film, head: &[u8]) -> Result<Vec<u8>, NotShowable> {
+    Ok(match film.display() {
         Display::Brightest { white } => {
             let scale = scale(film, white, 255.0)?;
             // The conversion truncates, and turns NaN and negative numbers into 0.
-            Ok(values.map(|v| (v * scale) as u8).collect())
+            components(film, head, |v| [(v * scale) as u8])
         }
         Display::Exposed => {
             let factor = film.exposure().ok_or(NotShowable::ExposureUnknown)?;
             let codes = Codes8::table();
-            Ok(values.map(|v| codes.code(f64::from(*v) * factor)).collect())
+            components(film, head, |v| [codes.code(f64::from(v) * factor)])
         }
-    }
+    })
 }
 
-/// Codes from 0 to 65535 for each component, row by row.
-pub(crate) fn codes16(film: &Film) -> Result<Vec<u16>, NotShowable> {
-    let values = film.pixels().iter().flatten();
-    match film.display() {
+/// `head`, and behind it codes from 0 to 65535 for each component, row by row, as
+/// the bytes that `bytes_of` makes of them.
+pub(crate) fn codes16(
+    film: &Film,
+    head: &[u8],
+    bytes_of: fn(u16) -> [u8; 2],
+) -> Result<Vec<u8>, NotShowable> {
+    Ok(match film.display() {
         Display::Brightest { white } => {
             let scale = scale(film, white, 65535.0)?;
-            Ok(values.map(|v| (v * scale) as u16).collect())
+            components(film, head, |v| bytes_of((v * scale) as u16))
         }
         Display::Exposed => {
             let factor = film.exposure().ok_or(NotShowable::ExposureUnknown)?;
-            Ok(values.map(|v| code16(f64::from(*v) * factor)).collect())
+            components(film, head, |v| bytes_of(code16(f64::from(v) * factor)))
         }
-    }
+    })
+}
+
+/// Linear values, 1 being display white (for radiance at 0 stops: its exposure
+/// is not applied), for each component, row by row, as this machine has them in
+/// memory.
+pub(crate) fn linear(film: &Film) -> Vec<u8> {
+    let display = film.display();
+    components(film, &[], |v| linear_value(display, v).to_ne_bytes())
+}
+
+/// `head`, and behind it `SIZE` bytes for each component of the film, row by row,
+/// made on all threads of the pool that it is called in.
+fn components<const SIZE: usize>(
+    film: &Film,
+    head: &[u8],
+    bytes_of: impl Fn(f32) -> [u8; SIZE] + Sync,
+) -> Vec<u8> {
+    /// So many components are worth another thread's while.
+    const BATCH: usize = 1 << 16;
+    let values = film.pixels().as_flattened();
+    // The system has zeros ready; each thread is the first to touch its part.
+    let mut bytes = vec![0; head.len() + SIZE * values.len()];
+    let (start, rest) = bytes.split_at_mut(head.len());
+    start.copy_from_slice(head);
+    let places = rest.as_chunks_mut().0;
+    places.par_chunks_mut(BATCH).zip(values.par_chunks(BATCH)).for_each(|(places, values)| {
+        for (place, v) in places.iter_mut().zip(values) {
+            *place = bytes_of(*v);
+        }
+    });
+    bytes
 }
 
 /// The factor of [`Display::Brightest`] from the film's values to codes up to
@@ -59,13 +94,6 @@ pub(crate) fn codes16(film: &Film) -> Result<Vec<u16>, NotShowable> {
 fn scale(film: &Film, white: f32, top: f32) -> Result<f32, NotShowable> {
     let peak = film.frame_peak().ok_or(NotShowable::PeakUnknown)?;
     Ok(top / if peak > white { peak } else { white })
-}
-
-/// Linear values, 1 being display white (for radiance at 0 stops: its exposure
-/// is not applied), for each component, row by row.
-pub(crate) fn linear(film: &Film) -> impl Iterator<Item = f32> {
-    let display = film.display();
-    film.pixels().iter().flatten().map(move |v| linear_value(display, *v))
 }
 
 /// The linear value of one component; for radiance the very bits.
@@ -85,7 +113,7 @@ pub(crate) fn linear_value(display: Display, v: f32) -> f32 {
 /// Never: the buffer has the size that the film says.
 pub fn to_rgb8(film: &Film) -> Result<image::RgbImage, NotShowable> {
     let window = film.window();
-    let image = image::RgbImage::from_raw(window.width, window.height, codes8(film)?);
+    let image = image::RgbImage::from_raw(window.width, window.height, codes8(film, &[])?);
     Ok(image.expect("three codes for each pixel"))
 }
 
@@ -93,6 +121,19 @@ pub fn to_rgb8(film: &Film) -> Result<image::RgbImage, NotShowable> {
 mod tests {
     use super::*;
     use lancer_film::Size;
+
+    fn codes8(film: &Film) -> Result<Vec<u8>, NotShowable> {
+        super::codes8(film, &[])
+    }
+
+    fn codes16(film: &Film) -> Result<Vec<u16>, NotShowable> {
+        let bytes = super::codes16(film, &[], u16::to_ne_bytes)?;
+        Ok(bytes.as_chunks().0.iter().map(|code| u16::from_ne_bytes(*code)).collect())
+    }
+
+    fn linear(film: &Film) -> Vec<f32> {
+        super::linear(film).as_chunks().0.iter().map(|v| f32::from_ne_bytes(*v)).collect()
+    }
 
     fn film(values: &[[f32; 3]]) -> Film {
         let frame = Size::new(values.len() as u32, 1);
@@ -107,7 +148,7 @@ mod tests {
         let film = film(&[[0.0, 0.999, 1.0], [254.999, 127.5, 3.0]]);
         assert_eq!(codes8(&film), Ok(vec![0, 0, 1, 254, 127, 3]));
         assert_eq!(codes16(&film), Ok(vec![0, 256, 257, 65534, 32767, 771]));
-        assert_eq!(linear(&film).nth(2), Some(1.0 / 255.0));
+        assert_eq!(linear(&film)[2], 1.0 / 255.0);
     }
 
     #[test]
@@ -155,7 +196,7 @@ mod tests {
         // 187.516, 136.96, 6.589 and 117.65 before rounding.
         assert_eq!(codes8(&film), Ok(vec![0, 188, 255, 137, 7, 118]));
         assert_eq!(codes16(&film), Ok(vec![0, 48192, 65535, 35199, 1693, 30235]));
-        assert_eq!(linear(&film).collect::<Vec<_>>(), [0.0, 0.5, 1.0, 0.25, 0.002, 0.18]);
+        assert_eq!(linear(&film), [0.0, 0.5, 1.0, 0.25, 0.002, 0.18]);
     }
 
     #[test]
@@ -166,7 +207,7 @@ mod tests {
             let (one, other) = (exposed(&values, stops), exposed(&halves, stops + 1.0));
             assert_eq!(codes8(&one), codes8(&other));
             assert_eq!(codes16(&one), codes16(&other));
-            assert!(linear(&one).eq(values.iter().flatten().copied()));
+            assert_eq!(linear(&one), values.as_flattened());
         }
     }
 
@@ -195,6 +236,38 @@ mod tests {
         assert_eq!(codes8(&film), Err(NotShowable::ExposureUnknown));
         assert_eq!(codes16(&film), Err(NotShowable::ExposureUnknown));
         assert!(NotShowable::ExposureUnknown.to_string().contains("set the film's stops"));
-        assert_eq!(linear(&film).count(), 3, "linear values need none");
+        assert_eq!(linear(&film).len(), 3, "linear values need none");
+    }
+
+    /// As many components as keep several threads busy, none of them alike.
+    #[test]
+    fn any_number_of_threads_makes_the_same_bytes() {
+        let frame = Size::new(511, 391);
+        let values: Vec<_> =
+            (0..511 * 391).map(|i| [0.001 * i as f32, 1.0 / (1 + i) as f32, 0.18]).collect();
+        for display in [Display::Brightest { white: 255.0 }, Display::Exposed] {
+            let mut film = Film::new(frame, frame.window(), display).expect("it fits");
+            film.put(frame.window(), &values);
+            film.set_stops(-1.5);
+            let all = |threads: usize| {
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+                pool.expect("they start").install(|| {
+                    [
+                        super::codes8(&film, b"head").expect("it shows"),
+                        super::codes16(&film, b"another", u16::to_be_bytes).expect("it shows"),
+                        super::linear(&film),
+                    ]
+                })
+            };
+            let one = all(1);
+            assert!(one[0].starts_with(b"head") && one[1].starts_with(b"another"));
+            for threads in [2, 3, 7] {
+                assert!(all(threads) == one, "{threads} threads, {display:?}");
+            }
+            // The definition, without batches.
+            let slowly: Vec<_> =
+                film.pixels().iter().flatten().map(|v| linear_value(display, *v)).collect();
+            assert_eq!(linear(&film), slowly);
+        }
     }
 }

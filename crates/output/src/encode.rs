@@ -50,16 +50,21 @@ const JPEG_QUALITY: u8 = 95;
 pub fn encode(film: &Film, format: Format, bits: Bits) -> Result<Vec<u8>, EncodeError> {
     let size = (film.window().width, film.window().height);
     if format.is_linear() {
-        let bytes: Vec<u8> = linear(film).flat_map(f32::to_ne_bytes).collect();
-        return write(format, &bytes, size, ExtendedColorType::Rgb32F);
+        return write(format, &linear(film), size, ExtendedColorType::Rgb32F);
     }
-    match bits {
-        Bits::Eight => write(format, &codes8(film)?, size, ExtendedColorType::Rgb8),
-        Bits::Sixteen if format.has_16_bits() => {
-            let bytes: Vec<u8> = codes16(film)?.into_iter().flat_map(u16::to_ne_bytes).collect();
+    match (format, bits) {
+        // Pixmaps are codes and nothing else, so they are made in their place.
+        (Format::Ppm, Bits::Eight) => Ok(codes8(film, &ppm_head(size, 255))?),
+        // The most significant byte comes first.
+        (Format::Ppm, Bits::Sixteen) => {
+            Ok(codes16(film, &ppm_head(size, 65535), u16::to_be_bytes)?)
+        }
+        (_, Bits::Eight) => write(format, &codes8(film, &[])?, size, ExtendedColorType::Rgb8),
+        (_, Bits::Sixteen) if format.has_16_bits() => {
+            let bytes = codes16(film, &[], u16::to_ne_bytes)?;
             write(format, &bytes, size, ExtendedColorType::Rgb16)
         }
-        Bits::Sixteen => Err(EncodeError::Bits(format)),
+        (_, Bits::Sixteen) => Err(EncodeError::Bits(format)),
     }
 }
 
@@ -71,6 +76,7 @@ pub fn encode_rgb8(image: &image::RgbImage, format: Format) -> Result<Vec<u8>, E
     write(format, image, image.dimensions(), ExtendedColorType::Rgb8)
 }
 
+/// The bytes of a picture file from samples; those of a pixmap have 8 bits.
 fn write(
     format: Format,
     samples: &[u8],
@@ -80,7 +86,7 @@ fn write(
     let mut file = Cursor::new(Vec::new());
     let out = &mut file;
     let result = match format {
-        Format::Ppm => return Ok(ppm(samples, (width, height), kind)),
+        Format::Ppm => return Ok([&*ppm_head((width, height), 255), samples].concat()),
         Format::Png => PngEncoder::new(out).write_image(samples, width, height, kind),
         Format::Exr => OpenExrEncoder::new(out).write_image(samples, width, height, kind),
         Format::Bmp => BmpEncoder::new(out).write_image(samples, width, height, kind),
@@ -95,20 +101,10 @@ fn write(
     Ok(file.into_inner())
 }
 
-/// A binary portable pixmap, with the three lines of header that the simplest
-/// readers expect (the library's has two, and no 16 bits).
-fn ppm(samples: &[u8], (width, height): (u32, u32), kind: ExtendedColorType) -> Vec<u8> {
-    let wide = kind == ExtendedColorType::Rgb16;
-    let top = if wide { 65535 } else { 255 };
-    let mut file = format!("P6\n{width} {height}\n{top}\n").into_bytes();
-    if wide {
-        // The most significant byte comes first.
-        let codes = samples.as_chunks().0.iter().map(|code| u16::from_ne_bytes(*code));
-        file.extend(codes.flat_map(u16::to_be_bytes));
-    } else {
-        file.extend_from_slice(samples);
-    }
-    file
+/// What stands before the codes, up to `top`, of a binary portable pixmap: the three
+/// lines that the simplest readers expect (the library writes two, and no 16 bits).
+fn ppm_head((width, height): (u32, u32), top: u16) -> Vec<u8> {
+    format!("P6\n{width} {height}\n{top}\n").into_bytes()
 }
 
 #[cfg(test)]

@@ -46,6 +46,8 @@
 
 mod eight;
 mod one;
+#[cfg(test)]
+mod tests;
 mod vectors;
 mod wide;
 

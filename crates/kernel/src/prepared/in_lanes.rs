@@ -8,7 +8,8 @@ use crate::listed::{Candidates, Goal, LaneHits, LanePoints, Listed, MOST_LISTED}
 use crate::primitive::Primitive;
 use crate::shapes::plane::HalfSpace;
 use crate::shapes::sphere::Ball;
-use crate::{Hit, Rays, checker};
+use crate::checker::{self, LaneCells};
+use crate::{Hit, Rays};
 use lancer_math::{Point, Vector};
 use lancer_scene::{Checker, Geometry, Shape};
 
@@ -134,18 +135,22 @@ impl Prepared {
         self.listed.contacts(item, rays, t)
     }
 
-    /// In which lanes a plane's checker shows its second colour; `None` where the item is
-    /// no plane that is met in lanes, or where doubles do not tell its squares apart.
+    /// Which colours of a checker points show of an item that is met in lanes.
     #[inline(always)]
-    pub fn squares_in_lanes<L: Lanes>(
+    pub fn cells_in_lanes<L: Lanes>(
         &self,
         lanes: L,
         item: u32,
         points: &LanePoints<L::Real>,
         checker: &Checker,
-    ) -> Option<L::Mask> {
-        let (first, second) = self.listed.plane(item)?.squares(lanes, &points.point, checker);
-        checker::second(lanes, first, second)
+    ) -> LaneCells<L::Mask> {
+        match self.listed.plane(item) {
+            Some(plane) => {
+                let (first, second) = plane.squares(lanes, &points.point, checker);
+                checker::cells(lanes, first, second)
+            }
+            None => checker::on_globe(lanes, &points.normal, checker.angle.get()),
+        }
     }
 
     /// Whether [`points_in_lanes`](Self::points_in_lanes) knows the item.

@@ -5,7 +5,7 @@ use super::buffers::{Buffers, Triple, from_mut, load};
 use super::units::units;
 use super::{Tile, dot, first_lanes};
 use lancer_kernel::Rays;
-use lancer_kernel::lanes::{Lanes, Mask, Real, Vectors, larger, smaller};
+use lancer_kernel::lanes::{Lanes, Mask, Real, Vectors, lanes_of, larger, smaller};
 use lancer_math::{Bounds, Point, Vector};
 use lancer_scene::Pattern;
 
@@ -85,23 +85,18 @@ impl Tile<'_> {
             facet.store(from_mut(&mut sights.facet, at));
             facet.store(from_mut(&mut sights.shading, at));
 
-            let albedo = match pattern {
-                Pattern::Solid => first,
-                Pattern::Checker(checker) => {
-                    match prepared.squares_in_lanes(lanes, item, &points, &checker) {
-                        Some(is_second) => Vectors::select(is_second, second, first),
-                        None => {
-                            let count = L::WIDTH.min(group.count - at);
-                            for k in at..at + count {
-                                let seen = prepared.expand(&group.ray(k), &group.hit(k));
-                                (0..3).for_each(|i| sights.albedo[i][k] = seen.albedo[i]);
-                            }
-                            continue;
-                        }
-                    }
-                }
+            let Pattern::Checker(checker) = pattern else {
+                first.store(from_mut(&mut sights.albedo, at));
+                continue;
             };
+            let cells = prepared.cells_in_lanes(lanes, item, &points, &checker);
+            let albedo = Vectors::select(cells.second, second, first);
             albedo.store(from_mut(&mut sights.albedo, at));
+            let asked = first_lanes(lanes, group.count - at) & !cells.certain;
+            for k in lanes_of(asked.bits()) {
+                let seen = prepared.expand(&group.ray(at + k), &group.hit(at + k));
+                (0..3).for_each(|i| sights.albedo[i][at + k] = seen.albedo[i]);
+            }
         }
         let mut bounds = Bounds::EMPTY;
         let mut error = 0.0_f64;
