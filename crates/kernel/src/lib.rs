@@ -28,6 +28,7 @@
 //! ```
 #![forbid(unsafe_code)]
 
+mod batch;
 mod bvh;
 mod checker;
 mod crossing;

@@ -1,8 +1,7 @@
 use crate::bvh::Bvh;
-use crate::lanes::Width;
 use crate::primitive::{Cell, Primitive};
 use crate::shapes::primitive;
-use crate::{Hit, SurfacePoint};
+use crate::{Hit, KernelSettings, SurfacePoint};
 use lancer_math::{Bounds, Placement, Point, Ray};
 use lancer_scene::{Group, Pattern, Placed, Scene, Shape, Surface};
 use std::cmp::Ordering;
@@ -64,7 +63,7 @@ pub enum Which {
 }
 
 impl Ready {
-    fn new(shape: &Shape) -> Self {
+    fn new(shape: &Shape, settings: &KernelSettings) -> Self {
         let surface = shape.surface;
         let albedo = surface.colour.shares();
         let second = match surface.pattern {
@@ -72,7 +71,7 @@ impl Ready {
             Pattern::Checker(checker) => checker.second.shares(),
         };
         Self {
-            primitive: primitive(&shape.geometry, Width::best()),
+            primitive: primitive(&shape.geometry, settings),
             surface,
             // A mesh finds out by looking at all its edges: only where it matters.
             is_closed: surface.has_medium() && shape.geometry.is_closed(),
@@ -136,6 +135,14 @@ impl Prepared {
         }
         self.hierarchy.visit(ray, 0.0, to, |i, to| consider(self.bounded[i], to));
         best
+    }
+
+    /// The only shape there is, where it stands as it is.
+    pub(crate) fn only_shape(&self) -> Option<&dyn Primitive> {
+        match self.items[..] {
+            [Item { shape, placement: 0 }] => Some(&*self.shapes[shape as usize].primitive),
+            _ => None,
+        }
     }
 
     /// Whether there is a hit with 0 < t < `t_max` among some items.
@@ -279,7 +286,7 @@ struct Builder {
 impl Builder {
     fn shapes(&mut self, shapes: &[Shape], placement: u32) {
         let first = self.shapes.len() as u32;
-        self.shapes.extend(shapes.iter().map(Ready::new));
+        self.shapes.extend(shapes.iter().map(|shape| Ready::new(shape, &KernelSettings::default())));
         self.place(first, shapes.len() as u32, placement);
     }
 

@@ -12,6 +12,7 @@ mod build;
 mod collapse;
 mod node;
 mod query;
+mod sort;
 #[cfg(test)]
 mod tests;
 mod walk;

@@ -18,12 +18,12 @@ mod tetrahedron;
 mod torus;
 mod triangle;
 
-use crate::lanes::Width;
+use crate::KernelSettings;
 use crate::primitive::Primitive;
 use lancer_scene::Geometry;
 
 /// The shape made ready.
-pub(crate) fn primitive(geometry: &Geometry, width: Width) -> Box<dyn Primitive> {
+pub(crate) fn primitive(geometry: &Geometry, settings: &KernelSettings) -> Box<dyn Primitive> {
     match geometry {
         Geometry::Sphere(sphere) => Box::new(sphere::Ball::new(sphere)),
         Geometry::Plane(plane) => Box::new(plane::HalfSpace::new(plane)),
@@ -34,7 +34,7 @@ pub(crate) fn primitive(geometry: &Geometry, width: Width) -> Box<dyn Primitive>
         Geometry::Tetrahedron(solid) => Box::new(tetrahedron::Faces::new(solid)),
         Geometry::Cone(cone) => Box::new(cone::Barrel::new(cone)),
         Geometry::Torus(torus) => Box::new(torus::Ring::new(torus)),
-        Geometry::Mesh(mesh) => Box::new(mesh::Facets::new(mesh, width)),
+        Geometry::Mesh(mesh) => Box::new(mesh::Facets::new(mesh, settings)),
         Geometry::Custom(custom) => Box::new(custom::Own::new(custom)),
     }
 }
