@@ -68,9 +68,19 @@ fn words(path: &str) -> Result<Vec<[u8; 4]>, Box<dyn Error>> {
 fn report(name: &str, rays: usize, mut work: impl FnMut()) {
     let mut best = f64::INFINITY;
     for _ in 0..5 {
-        let begun = Instant::now();
+        let begun = (Instant::now(), processor_time());
         work();
-        best = best.min(begun.elapsed().as_secs_f64());
+        best = best.min(match (begun.1, processor_time()) {
+            (Some(begun), Some(now)) => now - begun,
+            _ => begun.0.elapsed().as_secs_f64(),
+        });
     }
     println!("{name}: {:.2} million rays per second", rays as f64 / best / 1e6);
+}
+
+/// In seconds, of this thread, where the system tells: others may be at work.
+fn processor_time() -> Option<f64> {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+    let nanoseconds: f64 = text.split(' ').next()?.parse().ok()?;
+    Some(nanoseconds / 1e9)
 }
