@@ -2,11 +2,11 @@
 //! of rays are held against each, so that for them no hierarchy is needed.
 
 use crate::Which;
-use crate::lanes::{Lanes, Mask, One, Real, Vectors, lanes_of};
+use crate::lanes::{Lanes, Mask, Real, Vectors, lanes_of};
 use crate::rays::Rays;
 use crate::shapes::plane::{HalfSpace, HalfSpaces};
 use crate::shapes::sphere::{Ball, Balls};
-use lancer_math::{Point, Ray, Vector};
+use lancer_math::{Point, Vector};
 
 /// As many of a kind as there are bits.
 pub(crate) const MOST_LISTED: usize = 64;
@@ -76,10 +76,6 @@ impl Listed {
     pub(crate) fn add_plane(&mut self, item: u32, plane: HalfSpace, transparent: bool) {
         self.transparent_planes |= u64::from(transparent) << self.planes.len();
         self.planes.push((item, plane));
-    }
-
-    pub(crate) fn has_room_for_plane(&self) -> bool {
-        self.planes.len() < MOST_LISTED
     }
 
     pub(crate) fn all(&self) -> Candidates {
@@ -161,26 +157,6 @@ impl Listed {
             }
         }
         met
-    }
-
-    /// One ray's nearest hit.
-    #[inline]
-    pub(crate) fn nearest_of(&self, ray: &Ray, t_max: f64) -> Option<(f64, u32)> {
-        let hit = self.nearest(&Rays::splat(One, ray), t_max, &Candidates::ALL);
-        (hit.item >= 0.0).then_some((hit.t, hit.item as u32))
-    }
-
-    /// Whether one ray hits something.
-    #[inline]
-    pub(crate) fn meets(&self, ray: &Ray, t_max: f64, which: Which) -> bool {
-        self.any(&Rays::splat(One, ray), t_max, which, &Candidates::ALL).any()
-    }
-
-    /// The items of a kind.
-    pub(crate) fn items(&self, which: Which) -> impl Iterator<Item = u32> + '_ {
-        let of = self.of(which);
-        let planes = bits_of(of.planes).map(|k| self.planes[k].0);
-        planes.chain(bits_of(of.balls).map(|k| self.balls[k].0))
     }
 
     /// The points where rays hit the shape of that number, if it is listed.

@@ -45,6 +45,26 @@ pub(crate) trait Primitive: std::fmt::Debug + Send + Sync {
         self.crossings(ray).iter().find(|crossing| crossing.t > 0.0).filter(|c| c.t < t_max)
     }
 
+    /// Whether there is a crossing with 0 < t < `t_max`.
+    #[inline]
+    fn any(&self, ray: &Ray, t_max: f64) -> bool {
+        self.nearest(ray, t_max).is_some()
+    }
+
+    /// The nearest crossing with 0 < t < `t_max` of each ray.
+    fn nearest_each(&self, rays: &[Ray], t_max: f64, nearest: &mut [Option<Crossing>]) {
+        for (ray, nearest) in rays.iter().zip(nearest) {
+            *nearest = self.nearest(ray, t_max);
+        }
+    }
+
+    /// Whether each ray has a crossing with 0 < t < `t_max`.
+    fn any_each(&self, rays: &[Ray], t_max: f64, any: &mut [bool]) {
+        for (ray, any) in rays.iter().zip(any) {
+            *any = self.any(ray, t_max);
+        }
+    }
+
     /// Calls `found` with each crossing with `from` < t < `to`, in any order.
     fn each(&self, ray: &Ray, from: f64, to: f64, found: &mut dyn FnMut(Crossing)) {
         self.crossings(ray).iter().filter(|c| c.t > from && c.t < to).for_each(found);

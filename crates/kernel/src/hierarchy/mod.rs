@@ -12,6 +12,7 @@ mod build;
 mod collapse;
 mod node;
 mod query;
+mod sort;
 #[cfg(test)]
 mod tests;
 mod walk;
@@ -21,6 +22,7 @@ use lancer_math::Bounds;
 pub(crate) use node::LEAF;
 use node::{CHILDREN, MOST_ITEMS, Node, Space};
 use rayon::prelude::*;
+pub(crate) use sort::order_in;
 use std::ops::Range;
 pub(crate) use walk::Stack;
 
@@ -38,6 +40,7 @@ impl Hierarchy {
     ///
     /// # Panics
     /// Where there are more than 2^28.
+    #[cfg(test)]
     pub(crate) fn new(boxes: &[Bounds]) -> (Self, Vec<u32>) {
         Self::over(boxes.len(), |i| boxes[i])
     }
@@ -81,11 +84,6 @@ impl Hierarchy {
         let nodes = collapse::collapse(&binary);
         let order = items.iter().map(Item::number).collect();
         (Self { space, bounds, nodes }, order)
-    }
-
-    /// The box around all.
-    pub(crate) const fn bounds(&self) -> Bounds {
-        self.bounds
     }
 
     /// The places of each leaf.

@@ -64,18 +64,20 @@ impl Query {
             return Some(Self::ALL);
         };
         let origin = (from_centre + step) * space.scale;
-        let error = far.map(|c| (c * space.scale + 1.0) * LOST + margin * space.scale);
+        let error = far * (space.scale * LOST);
+        let error = error.add_scalar(LOST + margin * space.scale);
         if !(error.x <= 1.0 && error.y <= 1.0 && error.z <= 1.0) {
             return Some(Self::ALL);
         }
         let mut query = Self {
             origin: [[0.0; 3]; 2],
             inverse: [[0.0; 3]; 2],
-            side: [0, 1, 2].map(|axis| u8::from(d[axis].is_sign_negative())),
+            side: [0; 3],
             start,
             unit: power * space.scale,
         };
         for axis in 0..3 {
+            query.side[axis] = u8::from(d[axis].is_sign_negative());
             let along = d[axis] / power;
             let least = STANDING.copysign(along);
             let inverse = 1.0 / if along.abs() < STANDING { least } else { along };

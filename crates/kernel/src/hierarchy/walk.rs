@@ -72,10 +72,8 @@ impl Hierarchy {
         let Some(query) = Query::new(&self.space, &self.bounds, ray, margin, (from, to)) else {
             return;
         };
-        let axes = [0, 1, 2].map(
-            #[inline(always)]
-            |axis| Axis::new(lanes, &query, axis),
-        );
+        let axes =
+            [Axis::new(lanes, &query, 0), Axis::new(lanes, &query, 1), Axis::new(lanes, &query, 2)];
         let zero = lanes.single(0.0);
         let mut to = to;
         let mut reach = query.reach(to);

@@ -4,8 +4,8 @@ use super::balls::{Given, Spheres};
 use super::looks::{Look, Looks};
 use super::planes::Planes;
 use super::space::{Entry, Holds, Kept, Kind, Other, Own, Size, Space, Stand, norms};
+use crate::KernelSettings;
 use crate::hierarchy::Hierarchy;
-use crate::lanes::Width;
 use crate::primitive::Primitive;
 use crate::shapes::mesh::Facets;
 use crate::shapes::plane::HalfSpace;
@@ -22,17 +22,25 @@ pub(super) struct Built {
     /// Those of the groups; each after those that stand in it.
     pub(super) spaces: Vec<Space>,
     pub(super) looks: Vec<Look>,
+    /// How much memory all takes.
+    pub(super) bytes: usize,
 }
 
-pub(super) fn build(scene: &Scene, width: Width) -> Built {
-    let mut builder = Builder { width, ..Builder::default() };
+pub(super) fn build(scene: &Scene, settings: &KernelSettings) -> Built {
+    let mut builder = Builder { settings: *settings, ..Builder::default() };
     let root = builder.space(&scene.shapes, &scene.groups);
-    Built { root, spaces: builder.spaces, looks: builder.looks.finish() }
+    let Builder { spaces, looks, meshes, .. } = builder;
+    let looks = looks.finish();
+    let bytes = root.bytes()
+        + spaces.iter().map(Space::bytes).sum::<usize>()
+        + meshes.values().map(|mesh| mesh.bytes()).sum::<usize>()
+        + size_of_val(&looks[..]);
+    Built { root, spaces, looks, bytes }
 }
 
 #[derive(Default)]
 struct Builder {
-    width: Width,
+    settings: KernelSettings,
     spaces: Vec<Space>,
     looks: Looks,
     /// How many shapes of the description have been numbered.
@@ -80,8 +88,7 @@ impl Builder {
         let is_transparent = surface.is_transparent();
         // A mesh finds out by looking at all its edges: only where it matters.
         let is_solid = surface.has_medium() && shape.geometry.is_closed();
-        let holds =
-            Holds { opaque: !is_transparent, transparent: is_transparent, solid: is_solid };
+        let holds = Holds { opaque: !is_transparent, transparent: is_transparent, solid: is_solid };
         parts.holds = parts.holds.and(holds);
         if let Geometry::Sphere(sphere) = &shape.geometry {
             let ball = Ball::new(sphere);
@@ -96,10 +103,10 @@ impl Builder {
         let primitive = match &shape.geometry {
             Geometry::Mesh(mesh) => {
                 let known = self.meshes.entry(Arc::as_ptr(mesh));
-                let facets = known.or_insert_with(|| Arc::new(Facets::new(mesh, self.width)));
+                let facets = known.or_insert_with(|| Arc::new(Facets::new(mesh, &self.settings)));
                 Kind::Mesh(Arc::clone(facets))
             }
-            geometry => Kind::Any(primitive(geometry, self.width)),
+            geometry => Kind::Any(primitive(geometry, &self.settings)),
         };
         let bounds = primitive.get().bounds().filter(is_finite);
         if let Some(bounds) = &bounds {
@@ -164,7 +171,7 @@ impl Parts {
     fn stand(&mut self, placed: &Placed, number: u32, space: &Space, first: u32) {
         // Negative zeros become zeros, as they do in every product.
         let placement = placed.placement.then(&Placement::IDENTITY);
-        let bounds = space.bounds.map(|bounds| placement.bounds(&bounds)).filter(is_finite);
+        let bounds = space.has_end.then(|| placement.bounds(&space.around)).filter(is_finite);
         self.enter(Entry::placed(self.placed.len()), bounds);
         self.size = self.size.and(space.size.placed(&placement));
         self.holds = self.holds.and(space.holds);
@@ -184,8 +191,7 @@ impl Parts {
             own[shape as usize].kept = Kept::Sphere(spot);
         }
         // Each has a way of its own to be met, so each has a leaf.
-        let (hierarchy, order) =
-            Hierarchy::with_leaves_of(1, self.boxes.len(), |i| self.boxes[i]);
+        let (hierarchy, order) = Hierarchy::with_leaves_of(1, self.boxes.len(), |i| self.boxes[i]);
         let has_end = self.unbounded.is_empty() && self.planes.is_empty();
         Space {
             first_shape,
@@ -200,7 +206,8 @@ impl Parts {
             item_count,
             holds: self.holds,
             size: self.size,
-            bounds: has_end.then_some(self.around),
+            around: self.around,
+            has_end,
             depth: self.depth,
         }
     }

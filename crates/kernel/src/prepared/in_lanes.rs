@@ -3,12 +3,12 @@
 use super::build::is_finite;
 use super::walk::Known;
 use super::{Any, Nearest, Prepared, Which};
+use crate::checker::{self, LaneCells};
 use crate::lanes::{Lanes, MOST, Mask, Real, lanes_of};
 use crate::listed::{Candidates, Goal, LaneHits, LanePoints, Listed, MOST_LISTED};
 use crate::primitive::Primitive;
 use crate::shapes::plane::HalfSpace;
 use crate::shapes::sphere::Ball;
-use crate::checker::{self, LaneCells};
 use crate::{Hit, Rays};
 use lancer_math::{Point, Vector};
 use lancer_scene::{Checker, Geometry, Shape};
@@ -81,7 +81,9 @@ impl Prepared {
         hits.item.store(&mut item);
         for k in lanes_of(asked.bits()) {
             let known = (item[k] >= 0.0).then(|| Hit { t: t[k], item: item[k] as u32, part: 0 });
-            if let Some(hit) = self.ask(&rays.lane(k), Nearest::beyond(t_max, known), self.listed_kinds).best {
+            if let Some(hit) =
+                self.ask(&rays.lane(k), Nearest::beyond(t_max, known), self.listed_kinds).best
+            {
                 (t[k], item[k], part[k]) = (hit.t, f64::from(hit.item), f64::from(hit.part));
             }
         }
@@ -118,7 +120,9 @@ impl Prepared {
     ) -> L::Mask {
         let mut bits = met.bits();
         for k in lanes_of((asked & !met).bits()) {
-            bits |= u32::from(self.ask(&rays.lane(k), Any::new(t_max, which), self.listed_kinds).found) << k;
+            bits |=
+                u32::from(self.ask(&rays.lane(k), Any::new(t_max, which), self.listed_kinds).found)
+                    << k;
         }
         rays.lanes.mask(bits)
     }

@@ -1,4 +1,5 @@
 mod balls;
+mod batch;
 mod build;
 mod in_lanes;
 mod items;
@@ -35,6 +36,7 @@ pub struct Prepared {
     /// Of the scene's own shapes those that whole registers of rays are held against.
     listed: Listed,
     listed_kinds: Known,
+    bytes: usize,
     settings: KernelSettings,
 }
 
@@ -71,9 +73,16 @@ impl Prepared {
     /// say.
     #[must_use]
     pub fn with(scene: &Scene, settings: &KernelSettings) -> Self {
-        let build::Built { root, spaces, looks } = build::build(scene, settings.lanes);
+        let build::Built { root, spaces, looks, bytes } = build::build(scene, settings);
         let (listed, listed_kinds) = in_lanes::listed(&scene.shapes);
-        Self { root, spaces, looks, listed, listed_kinds, settings: *settings }
+        Self { root, spaces, looks, listed, listed_kinds, bytes, settings: *settings }
+    }
+
+    /// About how much memory it takes, apart from the positions and normals of meshes,
+    /// which it shares with the scene.
+    #[must_use]
+    pub const fn bytes(&self) -> usize {
+        self.bytes
     }
 
     /// Whether any of them lets light through.

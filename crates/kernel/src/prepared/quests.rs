@@ -106,14 +106,7 @@ impl Quest for Nearest {
     }
 
     #[inline(always)]
-    fn mesh<L: Lanes>(
-        &mut self,
-        lanes: L,
-        stack: &mut Stack,
-        mesh: &Facets,
-        ray: &Ray,
-        item: u32,
-    ) {
+    fn mesh<L: Lanes>(&mut self, lanes: L, stack: &mut Stack, mesh: &Facets, ray: &Ray, item: u32) {
         if let Some(crossing) = mesh.nearest_of(lanes, stack, ray, self.to) {
             self.consider(Hit { t: crossing.t, item, part: crossing.part });
         }
@@ -188,7 +181,7 @@ impl Quest for Any {
 
     #[inline(always)]
     fn primitive(&mut self, primitive: &dyn Primitive, ray: &Ray, _item: u32) {
-        self.found = self.found || primitive.nearest(ray, self.t_max).is_some();
+        self.found = self.found || primitive.any(ray, self.t_max);
     }
 
     #[inline(always)]
@@ -200,7 +193,7 @@ impl Quest for Any {
         ray: &Ray,
         _item: u32,
     ) {
-        self.found = self.found || mesh.nearest_of(lanes, stack, ray, self.t_max).is_some();
+        self.found = self.found || mesh.any_of(lanes, stack, ray, self.t_max);
     }
 
     #[inline(always)]

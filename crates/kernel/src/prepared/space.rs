@@ -31,8 +31,10 @@ pub(super) struct Space {
     pub(super) item_count: u32,
     pub(super) holds: Holds,
     pub(super) size: Size,
-    /// Around everything; `None` where something has no end.
-    pub(super) bounds: Option<Bounds>,
+    /// Around everything that has an end.
+    pub(super) around: Bounds,
+    /// Whether everything has.
+    pub(super) has_end: bool,
     /// How many spaces are nested, this one included.
     pub(super) depth: usize,
 }
@@ -121,6 +123,26 @@ pub(super) struct Size {
     /// How many times as large an error becomes that is made on the way in and
     /// taken back out.
     pub(super) condition: f64,
+}
+
+impl Space {
+    /// How much memory it takes, with its shapes but for meshes.
+    pub(super) fn bytes(&self) -> usize {
+        let others = self.others.iter().map(|other| match &other.primitive {
+            Kind::Mesh(_) => 0,
+            Kind::Any(primitive) => size_of_val(&**primitive),
+        });
+        size_of::<Self>()
+            + size_of_val(&self.own[..])
+            + self.spheres.bytes()
+            + size_of_val(&self.planes[..])
+            + size_of_val(&self.others[..])
+            + others.sum::<usize>()
+            + size_of_val(&self.placed[..])
+            + size_of_val(&self.bounded[..])
+            + self.hierarchy.bytes()
+            + size_of_val(&self.unbounded[..])
+    }
 }
 
 impl Kind {

@@ -40,14 +40,7 @@ pub(super) trait Quest {
     fn primitive(&mut self, primitive: &dyn Primitive, ray: &Ray, item: u32);
 
     /// Looks at a mesh.
-    fn mesh<L: Lanes>(
-        &mut self,
-        lanes: L,
-        stack: &mut Stack,
-        mesh: &Facets,
-        ray: &Ray,
-        item: u32,
-    );
+    fn mesh<L: Lanes>(&mut self, lanes: L, stack: &mut Stack, mesh: &Facets, ray: &Ray, item: u32);
 
     /// Looks at as many spheres of a register as there are names; their items are
     /// numbered from `first` on.

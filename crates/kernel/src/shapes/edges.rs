@@ -57,7 +57,7 @@ impl Shear {
         let axes = [(z + 1) % 3, (z + 2) % 3, z];
         let longest = ray.direction[z];
         let others = [ray.direction[axes[0]], ray.direction[axes[1]]];
-        let slopes = others.map(|component| component / longest);
+        let slopes = [others[0] / longest, others[1] / longest];
         Self { origin: ray.origin, axes, slopes, longest, others }
     }
 
@@ -79,13 +79,15 @@ impl Shear {
 
     #[inline(always)]
     fn see(&self, vertex: &Point) -> Seen {
-        let [x, y, z] = self.axes.map(|axis| vertex[axis] - self.origin[axis]);
+        let [i, j, k] = self.axes;
+        let (x, y, z) =
+            (vertex[i] - self.origin[i], vertex[j] - self.origin[j], vertex[k] - self.origin[k]);
         Seen { x: x - self.slopes[0] * z, y: y - self.slopes[1] * z, z }
     }
 
     #[inline(always)]
     pub(crate) fn meet(&self, corners: &[Point; 3]) -> Option<Meeting> {
-        let [a, b, c] = [&corners[0], &corners[1], &corners[2]].map(|vertex| self.see(vertex));
+        let [a, b, c] = [self.see(&corners[0]), self.see(&corners[1]), self.see(&corners[2])];
         // All on the same side: NaN is on none.
         let side = side(b, c);
         let met = if side > 0.0 {
@@ -97,9 +99,9 @@ impl Shear {
             return None;
         }
         // Of one sign, or 0.
-        let areas =
-            [(b, c), (c, a), (a, b)].map(|(p, q)| difference_of_products(p.x, q.y, p.y, q.x));
-        let weights = areas.map(|area| area / (areas[0] + areas[1] + areas[2]));
+        let areas = [area(b, c), area(c, a), area(a, b)];
+        let sum = areas[0] + areas[1] + areas[2];
+        let weights = [areas[0] / sum, areas[1] / sum, areas[2] / sum];
         let depth = weights[0] * a.z + weights[1] * b.z + weights[2] * c.z;
         // Between those of its corners, also where the ray grazes it.
         let depth = depth.min(a.z.max(b.z).max(c.z)).max(a.z.min(b.z).min(c.z));
@@ -113,15 +115,25 @@ impl Shear {
     /// the ray; with this it is never nearer than a box that holds the triangle.
     #[inline(always)]
     fn in_box(&self, corners: &[Point; 3], mut t: f64) -> f64 {
-        for (axis, component) in [0, 1].map(|k| (self.axes[k], self.others[k])) {
+        for k in 0..2 {
+            let (axis, component) = (self.axes[k], self.others[k]);
             if component != 0.0 {
                 let inverse = 1.0 / component;
-                let [a, b, c] = [0, 1, 2].map(|k| (corners[k][axis] - self.origin[axis]) * inverse);
+                let origin = self.origin[axis];
+                let a = (corners[0][axis] - origin) * inverse;
+                let b = (corners[1][axis] - origin) * inverse;
+                let c = (corners[2][axis] - origin) * inverse;
                 t = t.min(a.max(b).max(c)).max(a.min(b).min(c));
             }
         }
         t
     }
+}
+
+/// Twice that of the triangle of the ray, p and q.
+#[inline(always)]
+fn area(p: Seen, q: Seen) -> f64 {
+    difference_of_products(p.x, q.y, p.y, q.x)
 }
 
 /// On which side of the line from p to q the ray goes by; 0 only where p and q

@@ -18,13 +18,13 @@ mod tetrahedron;
 mod torus;
 mod triangle;
 
-use crate::lanes::Width;
+use crate::KernelSettings;
 use crate::primitive::Primitive;
 use lancer_scene::Geometry;
 use std::sync::Arc;
 
 /// The shape made ready.
-pub(crate) fn primitive(geometry: &Geometry, width: Width) -> Arc<dyn Primitive> {
+pub(crate) fn primitive(geometry: &Geometry, settings: &KernelSettings) -> Arc<dyn Primitive> {
     match geometry {
         Geometry::Sphere(sphere) => Arc::new(sphere::Ball::new(sphere)),
         Geometry::Plane(plane) => Arc::new(plane::HalfSpace::new(plane)),
@@ -35,7 +35,7 @@ pub(crate) fn primitive(geometry: &Geometry, width: Width) -> Arc<dyn Primitive>
         Geometry::Tetrahedron(solid) => Arc::new(tetrahedron::Faces::new(solid)),
         Geometry::Cone(cone) => Arc::new(cone::Barrel::new(cone)),
         Geometry::Torus(torus) => Arc::new(torus::Ring::new(torus)),
-        Geometry::Mesh(mesh) => Arc::new(mesh::Facets::new(mesh, width)),
+        Geometry::Mesh(mesh) => Arc::new(mesh::Facets::new(mesh, settings)),
         Geometry::Custom(custom) => Arc::new(custom::Own::new(custom)),
     }
 }

@@ -67,18 +67,13 @@ impl Leaves {
     /// The ray made ready to be held against the triangles of a leaf.
     #[inline(always)]
     pub(super) fn filter<E: Eight>(&self, lanes: E, shear: &Shear) -> Filter<E> {
-        let [x, y, z] = shear.axes();
+        let ([x, y, z], [u, v]) = (shear.axes(), shear.slopes());
+        let origin = shear.origin();
         Filter {
             lanes,
             axes: [x, y, z],
-            origin: [x, y, z].map(
-                #[inline(always)]
-                |axis| lanes.double(shear.origin()[axis]),
-            ),
-            slopes: shear.slopes().map(
-                #[inline(always)]
-                |slope| lanes.double(slope),
-            ),
+            origin: [lanes.double(origin[x]), lanes.double(origin[y]), lanes.double(origin[z])],
+            slopes: [lanes.double(u), lanes.double(v)],
         }
     }
 
@@ -122,19 +117,20 @@ impl Leaves {
     #[inline(always)]
     fn corners(&self, places: &Range<usize>, lane: usize) -> [Point; 3] {
         let (first, count) = (ROWS * places.start + lane, places.len());
-        [0, 3, 6].map(
-            #[inline(always)]
-            |corner| {
-                Point::from([0, 1, 2].map(
-                    #[inline(always)]
-                    |axis| self.rows.number(first + (corner + axis) * count),
-                ))
-            },
-        )
+        [
+            self.rows.corner(first, count),
+            self.rows.corner(first + 3 * count, count),
+            self.rows.corner(first + 6 * count, count),
+        ]
     }
 }
 
 impl Rows {
+    #[inline(always)]
+    fn corner(&self, first: usize, step: usize) -> Point {
+        Point::new(self.number(first), self.number(first + step), self.number(first + 2 * step))
+    }
+
     #[inline(always)]
     fn number(&self, at: usize) -> f64 {
         match self {
@@ -173,20 +169,28 @@ impl<E: Eight> Filter<E> {
     #[inline(always)]
     fn candidates(&self, places: &Range<usize>, row: impl Fn(usize) -> E::Doubles) -> u32 {
         let (first, count) = (ROWS * places.start, places.len());
-        // As `Shear` sees them.
-        let [a, b, c] = [0, 3, 6].map(
-            #[inline(always)]
-            |corner| {
-                let [x, y, z] = [0, 1, 2].map(
-                    #[inline(always)]
-                    |k| row(first + (corner + self.axes[k]) * count) - self.origin[k],
-                );
-                [x - self.slopes[0] * z, y - self.slopes[1] * z]
-            },
-        );
+        let [a, b, c] = [
+            self.see(first, count, &row),
+            self.see(first + 3 * count, count, &row),
+            self.see(first + 6 * count, count, &row),
+        ];
         let [i, j, k] = [products(b, c), products(c, a), products(a, b)];
         let left = i[0].ge(i[1]) & j[0].ge(j[1]) & k[0].ge(k[1]);
         let right = i[0].le(i[1]) & j[0].le(j[1]) & k[0].le(k[1]);
         (left | right).bits() & ((1 << count) - 1)
+    }
+
+    /// A corner of each, as `Shear` sees it.
+    #[inline(always)]
+    fn see(
+        &self,
+        first: usize,
+        count: usize,
+        row: &impl Fn(usize) -> E::Doubles,
+    ) -> [E::Doubles; 2] {
+        let x = row(first + self.axes[0] * count) - self.origin[0];
+        let y = row(first + self.axes[1] * count) - self.origin[1];
+        let z = row(first + self.axes[2] * count) - self.origin[2];
+        [x - self.slopes[0] * z, y - self.slopes[1] * z]
     }
 }

@@ -4,16 +4,17 @@
 //! neighbours. Nothing is kept for a triangle besides the mesh and the boxes.
 //! A mesh that is closed but faces inwards is turned: its normals point outward.
 
+mod batch;
 mod leaves;
 
 use super::edges::Shear;
 use super::triangle::{normal_of, point_of};
-use crate::Crossing;
 use crate::checker;
 use crate::crossing::Crossings;
 use crate::hierarchy::{Hierarchy, Stack};
-use crate::lanes::{Lanes, Width, Work, dispatch};
+use crate::lanes::{Lanes, Work, dispatch};
 use crate::primitive::{Cell, Contact, Primitive};
+use crate::{Crossing, KernelSettings};
 use lancer_math::{Bounds, Point, Ray, Vector, unit};
 use lancer_scene::{Checker, Mesh};
 use leaves::Leaves;
@@ -25,7 +26,7 @@ pub(crate) struct Facets {
     mesh: Arc<Mesh>,
     hierarchy: Hierarchy,
     leaves: Leaves,
-    width: Width,
+    settings: KernelSettings,
     /// Whether its faces look inwards.
     inside_out: bool,
     volume: f64,
@@ -35,7 +36,7 @@ pub(crate) struct Facets {
 const OBLIQUE: Vector = Vector::new(0.531_441_7, 0.271_828_1, 0.802_199_3);
 
 impl Facets {
-    pub(crate) fn new(mesh: &Arc<Mesh>, width: Width) -> Self {
+    pub(crate) fn new(mesh: &Arc<Mesh>, settings: &KernelSettings) -> Self {
         let bounds_of = |triangle| Bounds::around(mesh.corners(triangle));
         let (hierarchy, order) = Hierarchy::over(mesh.triangle_count(), bounds_of);
         let leaves = Leaves::new(mesh, &hierarchy, order);
@@ -44,11 +45,16 @@ impl Facets {
             mesh: Arc::clone(mesh),
             hierarchy,
             leaves,
-            width,
+            settings: *settings,
             // Whether it is closed takes a look at all edges: only where it matters.
             inside_out: volume < 0.0 && mesh.is_closed(),
             volume: volume.abs(),
         }
+    }
+
+    /// How much memory it takes, apart from the mesh.
+    pub(crate) fn bytes(&self) -> usize {
+        size_of::<Self>() + self.hierarchy.bytes() + self.leaves.bytes()
     }
 
     /// The normal to shade with where the corners have these weights: on the
@@ -74,11 +80,23 @@ impl Primitive for Facets {
     }
 
     fn nearest(&self, ray: &Ray, t_max: f64) -> Option<Crossing> {
-        dispatch(self.width, Nearest { facets: self, ray, t_max })
+        dispatch(self.settings.lanes, Nearest { facets: self, ray, t_max })
+    }
+
+    fn nearest_each(&self, rays: &[Ray], t_max: f64, nearest: &mut [Option<Crossing>]) {
+        self.nearest_each_of(rays, t_max, nearest);
+    }
+
+    fn any_each(&self, rays: &[Ray], t_max: f64, any: &mut [bool]) {
+        self.any_each_of(rays, t_max, any);
+    }
+
+    fn any(&self, ray: &Ray, t_max: f64) -> bool {
+        dispatch(self.settings.lanes, Any { facets: self, ray, t_max })
     }
 
     fn each(&self, ray: &Ray, from: f64, to: f64, found: &mut dyn FnMut(Crossing)) {
-        dispatch(self.width, Each { facets: self, ray, from, to, found });
+        dispatch(self.settings.lanes, Each { facets: self, ray, from, to, found });
     }
 
     fn contact(&self, ray: &Ray, crossing: &Crossing) -> Contact {
@@ -134,6 +152,22 @@ impl Work for Nearest<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) -> Option<Crossing> {
         self.facets.nearest_of(lanes, &mut Stack::new(), self.ray, self.t_max)
+    }
+}
+
+/// Whether there is a triangle on a ray.
+struct Any<'a> {
+    facets: &'a Facets,
+    ray: &'a Ray,
+    t_max: f64,
+}
+
+impl Work for Any<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) -> bool {
+        self.facets.any_of(lanes, &mut Stack::new(), self.ray, self.t_max)
     }
 }
 
@@ -217,6 +251,38 @@ impl Facets {
             },
         );
         (nearest.t < t_max).then_some(nearest)
+    }
+
+    #[inline(always)]
+    pub(crate) fn any_of<L: Lanes>(
+        &self,
+        lanes: L,
+        stack: &mut Stack,
+        ray: &Ray,
+        t_max: f64,
+    ) -> bool {
+        let shear = Shear::new(ray);
+        let filter = self.leaves.filter(lanes, &shear);
+        let mut found = false;
+        self.hierarchy.visit(
+            lanes,
+            stack,
+            ray,
+            0.0,
+            (0.0, t_max),
+            #[inline(always)]
+            |places, to| {
+                self.leaves.each(
+                    &filter,
+                    &shear,
+                    places,
+                    #[inline(always)]
+                    |_, met| found |= met.t > 0.0 && met.t < t_max,
+                );
+                if found { ControlFlow::Break(()) } else { ControlFlow::Continue(to) }
+            },
+        );
+        found
     }
 }
 

@@ -53,7 +53,7 @@ fn aimed(mesh: &Mesh, rng: &mut Rng) -> Ray {
 fn closed_meshes_do_not_leak() {
     for (halvings, twist) in [(0, 0.0), (2, 0.0), (3, 90.0), (4, 200.0)] {
         let mesh = ball(halvings, twist);
-        let shape = Facets::new(&mesh, Width::best());
+        let shape = Facets::new(&mesh, &KernelSettings::default());
         let mut rng = Rng::with_seed(1);
         let rays: Vec<Ray> = (0..100_000).map(|_| aimed(&mesh, &mut rng)).collect();
         let met = check_pairs(&shape, rays.iter().copied());
@@ -92,7 +92,10 @@ fn each_ray_meets_one_of_the_triangles_around() {
             }
         }
     }
-    let shape = Facets::new(&Arc::new(Mesh::new(positions, triangles).unwrap()), Width::best());
+    let shape = Facets::new(
+        &Arc::new(Mesh::new(positions, triangles).unwrap()),
+        &KernelSettings::default(),
+    );
     // At vertices, at the middles of edges, and at others of their points.
     for y in 4..=124 {
         for x in 4..=124 {
@@ -125,7 +128,7 @@ fn each_ray_meets_one_of_the_triangles_around() {
         if mesh.triangle_count() < 2 {
             continue;
         }
-        let shape = Facets::new(&Arc::new(mesh), Width::best());
+        let shape = Facets::new(&Arc::new(mesh), &KernelSettings::default());
         let ray = Ray::new(Point::from(target - way * 30.0), way);
         assert_eq!(all(&shape, &ray).len(), 1, "case {case}: {a:?} {b:?} {p:?} {q:?} {ray:?}");
     }
@@ -134,7 +137,7 @@ fn each_ray_meets_one_of_the_triangles_around() {
 #[test]
 fn the_hierarchy_finds_what_a_loop_over_all_finds() {
     let mesh = ball(3, 140.0);
-    let shape = Facets::new(&mesh, Width::best());
+    let shape = Facets::new(&mesh, &KernelSettings::default());
     let mut rng = Rng::with_seed(2);
     for case in 0..5000 {
         let ray = aimed(&mesh, &mut rng);
@@ -153,7 +156,7 @@ fn the_hierarchy_finds_what_a_loop_over_all_finds() {
 #[test]
 fn rays_leave_the_surface_they_start_from() {
     for (mesh, convex) in [(ball(3, 0.0), true), (ball(3, 140.0), false)] {
-        let shape = Facets::new(&mesh, Width::best());
+        let shape = Facets::new(&mesh, &KernelSettings::default());
         let mut rng = Rng::with_seed(11);
         let mut aim = Rng::with_seed(12);
         let rays = (0..20_000).map(|_| {
@@ -180,7 +183,7 @@ fn what_faces_inwards_is_turned() {
     let mesh = Mesh::new(positions, turned.collect()).unwrap();
     let down = ray([0.1, 0.2, 9.0], [0.0, 0.0, -1.0]);
     for mesh in [Arc::new(mesh.clone()), Arc::new(mesh.with_smooth_normals())] {
-        let shape = Facets::new(&mesh, Width::best());
+        let shape = Facets::new(&mesh, &KernelSettings::default());
         let contact = shape.contact(&down, &shape.nearest(&down, f64::INFINITY).unwrap());
         assert!(contact.normal.z > 0.5 && contact.shading.z > 0.5);
         assert!(shape.contains(&Point::new(0.0, 0.1, 0.2)));
@@ -192,7 +195,7 @@ fn what_faces_inwards_is_turned() {
 #[test]
 fn shading_normals_are_interpolated() {
     let mesh = Arc::new(Mesh::clone(&ball(4, 0.0)).with_smooth_normals());
-    let shape = Facets::new(&mesh, Width::best());
+    let shape = Facets::new(&mesh, &KernelSettings::default());
     let mut rng = Rng::with_seed(5);
     let mut worst = 0.0_f64;
     for _ in 0..10_000 {
@@ -214,7 +217,7 @@ fn shading_normals_are_interpolated() {
         ([[3.0, 0.0, 4.0]; 3], [0.6, 0.0, 0.8]),
     ] {
         let mesh = flat.clone().with_normals(normals.to_vec(), None).unwrap();
-        let shape = Facets::new(&Arc::new(mesh), Width::best());
+        let shape = Facets::new(&Arc::new(mesh), &KernelSettings::default());
         let contact = shape.contact(&down, &shape.nearest(&down, 9.0).unwrap());
         assert!((contact.shading - Vector::from(expected)).norm() < 1e-7, "{normals:?}");
     }
@@ -223,7 +226,10 @@ fn shading_normals_are_interpolated() {
 #[test]
 fn open_meshes_have_no_inside_and_checkers_squares() {
     let corners = [[0.0; 3], [4.0, 0.0, 0.0], [0.0, 4.0, 0.5]].to_vec();
-    let shape = Facets::new(&Arc::new(Mesh::new(corners, vec![[0, 1, 2]]).unwrap()), Width::best());
+    let shape = Facets::new(
+        &Arc::new(Mesh::new(corners, vec![[0, 1, 2]]).unwrap()),
+        &KernelSettings::default(),
+    );
     assert!(!shape.contains(&Point::new(0.5, 0.5, 0.01)));
     let checker = Checker::new(Colour::RED);
     for (x, y, expected) in
@@ -253,7 +259,7 @@ fn scaled_by_powers_of_two_the_bits_are_the_same() {
             let triangles = (0..positions.len() as u32 / 3).map(|i| [0, 1, 2].map(|j| 3 * i + j));
             let scaled = Mesh::new(positions, triangles.collect()).unwrap();
             let scaled = scaled.with_normals(normals.clone(), None).unwrap();
-            Box::new(Facets::new(&Arc::new(scaled), Width::best()))
+            Box::new(Facets::new(&Arc::new(scaled), &KernelSettings::default()))
         },
         &rays,
     );

@@ -1,0 +1,112 @@
+//! Many rays at once: the processor's instructions are chosen once, and rays that
+//! come in no order are followed in a better one.
+
+use super::Facets;
+use crate::Crossing;
+use crate::hierarchy::Stack;
+use crate::lanes::{Lanes, Work, dispatch};
+use lancer_math::Ray;
+
+/// Rays are fetched so many at a time.
+const BLOCK: usize = 64;
+
+/// What is asked of each ray.
+trait Query {
+    type Answer: Copy;
+
+    fn answer<L: Lanes>(
+        facets: &Facets,
+        lanes: L,
+        stack: &mut Stack,
+        ray: &Ray,
+        t_max: f64,
+    ) -> Self::Answer;
+}
+
+struct Nearest;
+struct Any;
+
+impl Query for Nearest {
+    type Answer = Option<Crossing>;
+
+    #[inline(always)]
+    fn answer<L: Lanes>(
+        facets: &Facets,
+        lanes: L,
+        stack: &mut Stack,
+        ray: &Ray,
+        t_max: f64,
+    ) -> Option<Crossing> {
+        facets.nearest_of(lanes, stack, ray, t_max)
+    }
+}
+
+impl Query for Any {
+    type Answer = bool;
+
+    #[inline(always)]
+    fn answer<L: Lanes>(
+        facets: &Facets,
+        lanes: L,
+        stack: &mut Stack,
+        ray: &Ray,
+        t_max: f64,
+    ) -> bool {
+        facets.any_of(lanes, stack, ray, t_max)
+    }
+}
+
+struct Batch<'a, Q: Query> {
+    facets: &'a Facets,
+    rays: &'a [Ray],
+    t_max: f64,
+    order: Option<&'a [u32]>,
+    answers: &'a mut [Q::Answer],
+}
+
+impl<Q: Query> Work for Batch<'_, Q> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) {
+        let Self { facets, rays, t_max, order, answers } = self;
+        let mut stack = Stack::new();
+        let Some(order) = order else {
+            for (ray, answer) in rays.iter().zip(answers) {
+                *answer = Q::answer(facets, lanes, &mut stack, ray, t_max);
+            }
+            return;
+        };
+        let mut block = [rays[0]; BLOCK];
+        for numbers in order.chunks(BLOCK) {
+            for (ray, &number) in block.iter_mut().zip(numbers) {
+                *ray = rays[number as usize];
+            }
+            for (ray, &number) in block.iter().zip(numbers) {
+                answers[number as usize] = Q::answer(facets, lanes, &mut stack, ray, t_max);
+            }
+        }
+    }
+}
+
+impl Facets {
+    pub(super) fn nearest_each_of(
+        &self,
+        rays: &[Ray],
+        t_max: f64,
+        answers: &mut [Option<Crossing>],
+    ) {
+        self.ask::<Nearest>(rays, t_max, answers);
+    }
+
+    pub(super) fn any_each_of(&self, rays: &[Ray], t_max: f64, answers: &mut [bool]) {
+        self.ask::<Any>(rays, t_max, answers);
+    }
+
+    fn ask<Q: Query>(&self, rays: &[Ray], t_max: f64, answers: &mut [Q::Answer]) {
+        let order =
+            if self.settings.culling.sorted_rays { self.hierarchy.order_of(rays) } else { None };
+        let order = order.as_deref();
+        dispatch(self.settings.lanes, Batch::<'_, Q> { facets: self, rays, t_max, order, answers });
+    }
+}
