@@ -1,6 +1,7 @@
 //! The same bits for every number of lanes, every number of threads, and whatever is
 //! left out because it cannot matter.
 
+use lancer_film::Layers;
 use lancer_integrator::{
     Culling, Engine, KernelSettings, RenderSettings, Width, engine_by_name, render,
 };
@@ -43,7 +44,7 @@ fn hash(scene: &Scene, engine: &dyn Engine, threads: usize, kernel: KernelSettin
     }
     hash.add(rendered.film.stops().map_or(0, f64::to_bits));
     hash.add(rendered.film.frame_peak().map_or(0, |peak| u64::from(peak.to_bits())));
-    for pixel in rendered.layers.iter().flat_map(|layers| layers.pixels()) {
+    for pixel in rendered.layers.iter().flat_map(Layers::pixels) {
         let depths = [pixel.axis_depth, pixel.ray_depth];
         for v in depths.iter().chain(&pixel.normal).chain(&pixel.albedo) {
             hash.add(u64::from(v.to_bits()));
