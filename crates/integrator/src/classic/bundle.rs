@@ -62,48 +62,73 @@ pub(super) fn valid<L: Lanes>(i: usize, end: usize) -> u32 {
     if i + L::WIDTH <= end { all } else { all & ((1 << (end - i)) - 1) }
 }
 
+/// Calls `each` with registers that hold all of a range, some perhaps twice.
+#[inline(always)]
+fn each_register<L: Lanes>(
+    lanes: L,
+    from: &Triples,
+    range: Range<usize>,
+    mut each: impl FnMut(Vectors<L::Real>),
+) {
+    if range.len() < L::WIDTH {
+        let valid = lanes.mask(valid::<L>(range.start, range.end));
+        let v = from.load(lanes, range.start);
+        let first = Vectors::splat(lanes, &v.lane(0));
+        each(Vectors {
+            x: valid.select(v.x, first.x),
+            y: valid.select(v.y, first.y),
+            z: valid.select(v.z, first.z),
+        });
+        return;
+    }
+    let last = range.end - L::WIDTH;
+    let mut i = range.start;
+    while i < last {
+        each(from.load(lanes, i));
+        i += L::WIDTH;
+    }
+    each(from.load(lanes, last));
+}
+
 impl Around {
+    /// Of one point alone.
+    pub(super) fn point(centre: Vector) -> Self {
+        Self { centre, radius: 0.0, largest: centre.amax() }
+    }
+
     /// Points that are not numbers are left out: from them nothing is met.
     #[inline(always)]
     pub(super) fn new<L: Lanes>(lanes: L, points: &Triples, range: Range<usize>) -> Self {
         let (big, small) = (lanes.splat(f64::INFINITY), lanes.splat(f64::NEG_INFINITY));
         let mut least = Vectors { x: big, y: big, z: big };
         let mut most = Vectors { x: small, y: small, z: small };
-        for i in range.clone().step_by(L::WIDTH) {
-            let p = points.load(lanes, i);
-            let valid = lanes.mask(valid::<L>(i, range.end));
-            least.x = valid.select(min(p.x, least.x), least.x);
-            least.y = valid.select(min(p.y, least.y), least.y);
-            least.z = valid.select(min(p.z, least.z), least.z);
-            most.x = valid.select(max(p.x, most.x), most.x);
-            most.y = valid.select(max(p.y, most.y), most.y);
-            most.z = valid.select(max(p.z, most.z), most.z);
-        }
-        let width = L::WIDTH;
-        let least = [least.x, least.y, least.z].map(
+        each_register(
+            lanes,
+            points,
+            range,
             #[inline(always)]
-            |least| fold(least, f64::min, width),
+            |p| {
+                least =
+                    Vectors { x: min(p.x, least.x), y: min(p.y, least.y), z: min(p.z, least.z) };
+                most = Vectors { x: max(p.x, most.x), y: max(p.y, most.y), z: max(p.z, most.z) };
+            },
         );
-        let most = [most.x, most.y, most.z].map(
-            #[inline(always)]
-            |most| fold(most, f64::max, width),
+        let least = Vector::new(
+            fold(least.x, f64::min, L::WIDTH),
+            fold(least.y, f64::min, L::WIDTH),
+            fold(least.z, f64::min, L::WIDTH),
         );
-        let middle = |k: usize| 0.5 * least[k] + 0.5 * most[k];
-        let centre = Vector::new(middle(0), middle(1), middle(2));
-        let mut squared = lanes.splat(0.0);
-        let centres = Vectors::splat(lanes, &centre);
-        for i in range.clone().step_by(L::WIDTH) {
-            let valid = lanes.mask(valid::<L>(i, range.end));
-            let far = points.load(lanes, i).minus(&centres).norm_squared();
-            squared = valid.select(max(far, squared), squared);
+        let most = Vector::new(
+            fold(most.x, f64::max, L::WIDTH),
+            fold(most.y, f64::max, L::WIDTH),
+            fold(most.z, f64::max, L::WIDTH),
+        );
+        let half = most * 0.5 - least * 0.5;
+        Self {
+            centre: least * 0.5 + most * 0.5,
+            radius: half.norm() * (1.0 + SLACK) + least.amax().max(most.amax()) * SLACK * SLACK,
+            largest: least.amax().max(most.amax()),
         }
-        let radius = fold(squared, f64::max, width).sqrt() * (1.0 + SLACK);
-        let mut largest = 0.0_f64;
-        for side in least.into_iter().chain(most) {
-            largest = largest.max(side.abs());
-        }
-        // All of them NaN: `min` and `max` above have left infinities.
-        Self { centre, radius, largest }
     }
 
     /// Writes the spheres that may stand between these points and a light.
@@ -151,19 +176,19 @@ impl Around {
 }
 
 impl Cone {
-    /// Vectors that are not numbers are left out: along them nothing is met.
+    /// Around some unit vectors, of which those that are not numbers are left out:
+    /// along them nothing is met.
     #[inline(always)]
     pub(super) fn new<L: Lanes>(lanes: L, directions: &Triples, range: Range<usize>) -> Self {
         let zero = lanes.splat(0.0);
         let mut sum = Vectors { x: zero, y: zero, z: zero };
-        for i in range.clone().step_by(L::WIDTH) {
-            let d = directions.load(lanes, i);
-            let valid = lanes.mask(valid::<L>(i, range.end));
-            let more = sum.plus(&d);
-            sum.x = valid.select(more.x, sum.x);
-            sum.y = valid.select(more.y, sum.y);
-            sum.z = valid.select(more.z, sum.z);
-        }
+        each_register(
+            lanes,
+            directions,
+            range.clone(),
+            #[inline(always)]
+            |d| sum = sum.plus(&d),
+        );
         let add = |a: f64, b: f64| a + b;
         let sum = Vector::new(
             fold(sum.x, add, L::WIDTH),
@@ -173,11 +198,31 @@ impl Cone {
         let axis = sum / sum.norm();
         let axes = Vectors::splat(lanes, &axis);
         let mut cosine = lanes.splat(1.0);
-        for i in range.clone().step_by(L::WIDTH) {
-            let valid = lanes.mask(valid::<L>(i, range.end));
-            cosine = valid.select(min(directions.load(lanes, i).dot(&axes), cosine), cosine);
+        each_register(
+            lanes,
+            directions,
+            range,
+            #[inline(always)]
+            |d| cosine = min(d.dot(&axes), cosine),
+        );
+        Self::around(axis, fold(cosine, f64::min, L::WIDTH))
+    }
+
+    /// Around unit vectors and all that are between them.
+    #[inline(always)]
+    pub(super) fn of_corners(corners: [Vector; 4]) -> Self {
+        let sum = corners[0] + corners[1] + corners[2] + corners[3];
+        let axis = sum / sum.norm();
+        let mut cosine = 1.0;
+        for corner in corners {
+            cosine = min(corner.dot(&axis), cosine);
         }
-        let cosine = fold(cosine, f64::min, L::WIDTH) - SLACK * SLACK;
+        Self::around(axis, cosine)
+    }
+
+    #[inline(always)]
+    fn around(axis: Vector, least_cosine: f64) -> Self {
+        let cosine = least_cosine - SLACK * SLACK;
         Self { axis, cosine, sine: (1.0 - cosine * cosine).sqrt() }
     }
 

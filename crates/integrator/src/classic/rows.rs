@@ -10,6 +10,30 @@ pub(super) type Row = [f64; BATCH + MOST];
 
 pub(super) const ZEROS: Row = [0.0; BATCH + MOST];
 
+/// The register of a row that begins at `i`.
+#[inline(always)]
+pub(super) fn load<L: Lanes>(lanes: L, row: &Row, i: usize) -> L::Real {
+    lanes.load(&row[i..i + L::WIDTH])
+}
+
+/// Writes it there.
+#[inline(always)]
+pub(super) fn store<L: Lanes>(_: L, row: &mut Row, i: usize, register: L::Real) {
+    register.store(&mut row[i..i + L::WIDTH]);
+}
+
+/// Writes the lanes of the mask there, without gaps, and says how many they are.
+#[inline(always)]
+pub(super) fn pack<L: Lanes>(
+    _: L,
+    row: &mut Row,
+    i: usize,
+    register: L::Real,
+    mask: L::Mask,
+) -> usize {
+    register.store_packed(mask, &mut row[i..i + L::WIDTH])
+}
+
 /// A vector for each ray.
 #[derive(Debug, Clone)]
 pub(super) struct Triples {
@@ -24,24 +48,30 @@ impl Triples {
     #[inline(always)]
     pub(super) fn load<L: Lanes>(&self, lanes: L, i: usize) -> Vectors<L::Real> {
         Vectors {
-            x: lanes.load(&self.x[i..]),
-            y: lanes.load(&self.y[i..]),
-            z: lanes.load(&self.z[i..]),
+            x: load(lanes, &self.x, i),
+            y: load(lanes, &self.y, i),
+            z: load(lanes, &self.z, i),
         }
     }
 
     #[inline(always)]
-    pub(super) fn store<R: Real>(&mut self, i: usize, vectors: &Vectors<R>) {
-        vectors.x.store(&mut self.x[i..]);
-        vectors.y.store(&mut self.y[i..]);
-        vectors.z.store(&mut self.z[i..]);
+    pub(super) fn store<L: Lanes>(&mut self, lanes: L, i: usize, vectors: &Vectors<L::Real>) {
+        store(lanes, &mut self.x, i, vectors.x);
+        store(lanes, &mut self.y, i, vectors.y);
+        store(lanes, &mut self.z, i, vectors.z);
     }
 
     /// Without gaps.
     #[inline(always)]
-    pub(super) fn pack<R: Real>(&mut self, i: usize, vectors: &Vectors<R>, mask: R::Mask) {
-        vectors.x.store_packed(mask, &mut self.x[i..]);
-        vectors.y.store_packed(mask, &mut self.y[i..]);
-        vectors.z.store_packed(mask, &mut self.z[i..]);
+    pub(super) fn pack<L: Lanes>(
+        &mut self,
+        lanes: L,
+        i: usize,
+        vectors: &Vectors<L::Real>,
+        mask: L::Mask,
+    ) {
+        pack(lanes, &mut self.x, i, vectors.x, mask);
+        pack(lanes, &mut self.y, i, vectors.y, mask);
+        pack(lanes, &mut self.z, i, vectors.z, mask);
     }
 }

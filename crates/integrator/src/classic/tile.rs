@@ -5,12 +5,14 @@
 use super::bundle::{Around, Cone, valid};
 use super::camera::PinholeCamera;
 use super::lights::{Beacon, Lights, Suspects};
-use super::rows::{BATCH, Row, Triples, ZEROS};
+use super::rows::{BATCH, Row, Triples, ZEROS, load, pack, store};
+use super::vectors::Vectors;
 use super::world::{Candidates, World, custom_normal};
 use crate::{RayCounts, Rgb};
 use lancer_film::Window;
 use lancer_kernel::Culling;
-use lancer_kernel::lanes::{Lanes, MOST, Mask, Real, Work, lanes_of};
+use lancer_kernel::lanes::{Lanes, MOST, Mask, One, Real, Work, lanes_of};
+use lancer_math::Vector;
 use std::cell::Cell;
 use std::ops::Range;
 
@@ -49,8 +51,23 @@ struct Rays {
     /// The places of the surfaces that they leave in the level above; of rays from
     /// the eye those of the pixels in the tile.
     parent: Row,
-    /// Ranges of rays that have something in common.
-    bundles: Vec<Range<usize>>,
+    bundles: Vec<Bundle>,
+}
+
+/// Rays that have something in common.
+struct Bundle {
+    range: Range<usize>,
+    /// They begin in this ball.
+    around: Around,
+    /// They go along this cone, where that is known.
+    cone: Option<Cone>,
+}
+
+/// Points whose light is gathered together.
+struct Group {
+    /// The shapes that they are of, by place in the list of parts.
+    parts: Range<usize>,
+    around: Around,
 }
 
 /// What they meet, sorted by shape.
@@ -59,6 +76,7 @@ struct Met {
     index: Row,
     /// Shapes, none where nothing is met, and the ranges of their points.
     parts: Vec<(Option<usize>, Range<usize>)>,
+    groups: Vec<Group>,
     points: Triples,
     directions: Triples,
     normals: Triples,
@@ -118,6 +136,7 @@ impl Buffers {
                 distance: ZEROS,
                 index: ZEROS,
                 parts: Vec::new(),
+                groups: Vec::new(),
                 points: Triples::ZEROS,
                 directions: Triples::ZEROS,
                 normals: Triples::ZEROS,
@@ -160,9 +179,12 @@ impl Work for Tile<'_> {
         let mut buffers = BUFFERS.take().unwrap_or_else(Buffers::new);
         self.stage.tile(lanes, self.window, &mut buffers, self.counts);
         let level = &buffers.levels[0];
-        for i in 0..level.count {
-            if let Some(pixel) = self.pixels.get_mut(level.parent[i] as usize) {
-                *pixel = [level.colour[0][i], level.colour[1][i], level.colour[2][i]];
+        let count = level.count.min(BATCH);
+        let [red, green, blue] = &level.colour;
+        let colours = red[..count].iter().zip(&green[..count]).zip(&blue[..count]);
+        for (((red, green), blue), place) in colours.zip(&level.parent[..count]) {
+            if let Some(pixel) = self.pixels.get_mut(*place as u32 as usize) {
+                *pixel = [*red, *green, *blue];
             }
         }
         BUFFERS.set(Some(buffers));
@@ -209,74 +231,77 @@ impl Stage {
     fn look<L: Lanes>(&self, lanes: L, window: Window, buffers: &mut Buffers) {
         let Buffers { rays, numbers, .. } = buffers;
         rays.count = window.pixels() as usize;
-        let eye = super::vectors::Vectors::splat(lanes, &self.camera.origin().coords);
+        let eye = Vectors::splat(lanes, &self.camera.origin().coords);
         let width = window.width as usize;
         for row in 0..window.height {
             let start = row as usize * width;
             for column in (0..width).step_by(L::WIDTH) {
-                let columns = lanes.load(&numbers[column..]) + f64::from(window.x);
+                let columns = load(lanes, numbers, column) + f64::from(window.x);
                 let directions = self.camera.directions(lanes, columns, window.y + row);
                 let i = start + column;
-                rays.origins.store(i, &eye);
-                rays.directions.store(i, &directions);
-                lanes.splat(1.0).store(&mut rays.share[i..]);
-                lanes.splat(0.0).store(&mut rays.glow[i..]);
+                rays.origins.store(lanes, i, &eye);
+                rays.directions.store(lanes, i, &directions);
+                store(lanes, &mut rays.share, i, lanes.splat(1.0));
+                store(lanes, &mut rays.glow, i, lanes.splat(0.0));
             }
         }
         let everything = 0..rays.count;
-        rays.bundles.clear();
-        rays.bundles.push(everything.clone());
         rays.parent = *numbers;
-        if self.beacons.is_empty() {
-            return;
-        }
-        let cone = self.culling.tile_candidates.then(
-            #[inline(always)]
-            || Cone::new(lanes, &rays.directions, everything.clone()),
-        );
+        rays.bundles.clear();
+        let cone = Cone::of_corners(self.corners(window));
+        let around = Around::point(self.camera.origin().coords);
+        rays.bundles.push(Bundle { range: everything.clone(), around, cone: Some(cone) });
         for beacon in &self.beacons {
             let light = &self.lights.all[beacon.light];
-            if cone.is_some_and(
-                #[inline(always)]
-                |cone| !light.may_glow(cone.largest_cosine(&beacon.way)),
-            ) {
+            let is_faint = !light.may_glow(cone.largest_cosine(&beacon.way));
+            if is_faint && self.culling.tile_candidates {
                 continue;
             }
-            let way = super::vectors::Vectors::splat(lanes, &beacon.way);
+            let way = Vectors::splat(lanes, &beacon.way);
             let length_squared = lanes.splat(beacon.length_squared);
             for i in everything.clone().step_by(L::WIDTH) {
                 let along = rays.directions.load(lanes, i).dot(&way);
                 let glows = light.glows(lanes, along, length_squared);
                 if glows.any() {
-                    let sum = lanes.load(&rays.glow[i..]);
+                    let sum = load(lanes, &rays.glow, i);
                     let sum = light.add_glow(lanes, along, length_squared, glows, sum);
-                    sum.store(&mut rays.glow[i..]);
+                    store(lanes, &mut rays.glow, i, sum);
                 }
             }
         }
         in_codes(&mut rays.glow[..rays.count]);
     }
 
+    #[inline(always)]
+    fn corners(&self, window: Window) -> [Vector; 4] {
+        let (left, right) = (window.x, window.x + window.width - 1);
+        let (top, bottom) = (window.y, window.y + window.height - 1);
+        let corner = |x, y| self.camera.directions(One, f64::from(x), y).into();
+        [corner(left, top), corner(right, top), corner(left, bottom), corner(right, bottom)]
+    }
+
     /// The nearest hits.
     #[inline(always)]
     fn meet<L: Lanes>(&self, lanes: L, buffers: &mut Buffers) {
         let Buffers { rays, met, candidates, .. } = buffers;
-        for bundle in &rays.bundles {
+        for Bundle { range, around, cone } in &rays.bundles {
             let candidates = if self.culling.tile_candidates {
-                let around = Around::new(lanes, &rays.origins, bundle.clone());
-                let cone = Cone::new(lanes, &rays.directions, bundle.clone());
-                cone.candidates(lanes, &self.world, &around, candidates);
+                let cone = match cone {
+                    Some(cone) => *cone,
+                    None => Cone::new(lanes, &rays.directions, range.clone()),
+                };
+                cone.candidates(lanes, &self.world, around, candidates);
                 &*candidates
             } else {
                 self.world.everything()
             };
-            for i in bundle.clone().step_by(L::WIDTH) {
+            for i in range.clone().step_by(L::WIDTH) {
                 let origins = rays.origins.load(lanes, i);
                 let directions = rays.directions.load(lanes, i);
-                let asked = valid::<L>(i, bundle.end);
+                let asked = valid::<L>(i, range.end);
                 let nearest = self.world.meet(lanes, candidates, &origins, &directions, asked);
-                nearest.distance.store(&mut met.distance[i..]);
-                nearest.index.store(&mut met.index[i..]);
+                store(lanes, &mut met.distance, i, nearest.distance);
+                store(lanes, &mut met.index, i, nearest.index);
             }
         }
     }
@@ -304,7 +329,7 @@ impl Stage {
             let start = count;
             for r in first..registers {
                 let i = r * L::WIDTH;
-                let same = lanes.load(&met.index[i..]).eq(lanes.splat(index)).bits();
+                let same = load(lanes, &met.index, i).eq(lanes.splat(index)).bits();
                 let bits = same & u32::from(rest[r]);
                 if bits == 0 {
                     continue;
@@ -312,13 +337,13 @@ impl Stage {
                 rest[r] &= !(bits as u8);
                 let mask = lanes.mask(bits);
                 let directions = rays.directions.load(lanes, i);
-                let distance = lanes.load(&met.distance[i..]);
+                let distance = load(lanes, &met.distance, i);
                 let points = rays.origins.load(lanes, i).after(distance, &directions);
-                met.points.pack(count, &points, mask);
-                met.directions.pack(count, &directions, mask);
-                lanes.load(&rays.glow[i..]).store_packed(mask, &mut met.glow[count..]);
-                lanes.load(&rays.share[i..]).store_packed(mask, &mut met.share[count..]);
-                lanes.load(&rays.parent[i..]).store_packed(mask, &mut level.parent[count..]);
+                met.points.pack(lanes, count, &points, mask);
+                met.directions.pack(lanes, count, &directions, mask);
+                pack(lanes, &mut met.glow, count, load(lanes, &rays.glow, i), mask);
+                pack(lanes, &mut met.share, count, load(lanes, &rays.share, i), mask);
+                pack(lanes, &mut level.parent, count, load(lanes, &rays.parent, i), mask);
                 count += bits.count_ones() as usize;
             }
             let shape = (index >= 0.0).then_some(index as usize);
@@ -342,7 +367,7 @@ impl Stage {
             let custom = plane.wrapping_sub(self.world.planes.len());
             let splat = self.world.planes.get(plane).map(
                 #[inline(always)]
-                |plane| super::vectors::Vectors::splat(lanes, &plane.normal),
+                |plane| Vectors::splat(lanes, &plane.normal),
             );
             for i in range.clone().step_by(L::WIDTH) {
                 let p = points.load(lanes, i);
@@ -369,30 +394,26 @@ impl Stage {
                         bits |= u32::from(second) << k;
                     }
                     second = lanes.mask(bits);
-                    super::vectors::Vectors {
-                        x: lanes.load(&x),
-                        y: lanes.load(&y),
-                        z: lanes.load(&z),
-                    }
+                    Vectors { x: lanes.load(&x), y: lanes.load(&y), z: lanes.load(&z) }
                 };
-                normals.store(i, &n);
-                second.select(one, zero).store(&mut met.second[i..]);
+                normals.store(lanes, i, &n);
+                store(lanes, &mut met.second, i, second.select(one, zero));
                 let mut mirrors = zero;
                 let mut wants = one;
                 if may_mirror {
                     let m = directions.load(lanes, i).mirrored(&n);
-                    mirrored.store(i, &m);
-                    let shown = lanes.load(&met.share[i..]).ge(lanes.splat(LEAST_SHARE));
+                    mirrored.store(lanes, i, &m);
+                    let shown = load(lanes, &met.share, i).ge(lanes.splat(LEAST_SHARE));
                     mirrors = shown.select(one, zero);
                     if is_full {
                         // What a perfect mirror adds of its own is 0 times a finite number.
-                        let glow = lanes.load(&met.glow[i..]).abs();
+                        let glow = load(lanes, &met.glow, i).abs();
                         let finite = glow.lt(lanes.splat(f64::INFINITY));
                         wants = (finite & shown).select(zero, one);
                     }
                 }
-                mirrors.store(&mut met.mirrors[i..]);
-                wants.store(&mut met.wants[i..]);
+                store(lanes, &mut met.mirrors, i, mirrors);
+                store(lanes, &mut met.wants, i, wants);
             }
         }
     }
@@ -402,9 +423,11 @@ impl Stage {
     fn light<L: Lanes>(&self, lanes: L, buffers: &mut Buffers, counts: &mut RayCounts) {
         let Buffers { met, suspects, ends, .. } = buffers;
         let zero = lanes.splat(0.0);
+        met.groups.clear();
         let mut parts = 0;
         while parts < met.parts.len() {
             let (shape, mut range) = met.parts[parts].clone();
+            let first = parts;
             parts += 1;
             if shape.is_none() {
                 continue;
@@ -416,6 +439,7 @@ impl Stage {
                 parts += 1;
             }
             let around = Around::new(lanes, &met.points, range.clone());
+            met.groups.push(Group { parts: first..parts, around });
             suspects.clear();
             ends.clear();
             if self.culling.shadow_candidates {
@@ -428,9 +452,9 @@ impl Stage {
                 let p = met.points.load(lanes, i);
                 let n = met.normals.load(lanes, i);
                 let valid = lanes.mask(valid::<L>(i, range.end));
-                let matters = lanes.load(&met.wants[i..]).gt(zero) & valid;
+                let matters = load(lanes, &met.wants, i).gt(zero) & valid;
                 let wants = if self.culling.full_mirrors { matters } else { valid };
-                let mirrors = lanes.load(&met.mirrors[i..]).gt(zero) & valid;
+                let mirrors = load(lanes, &met.mirrors, i).gt(zero) & valid;
                 let some_mirror = mirrors.any();
                 let (mut lit, mut gleam) = (zero, zero);
                 let mut begin = 0;
@@ -474,8 +498,8 @@ impl Stage {
                         gleam = light.add_glow(lanes, along_mirrored, squared, glows, gleam);
                     }
                 }
-                lit.store(&mut met.lit[i..]);
-                gleam.store(&mut met.gleam[i..]);
+                store(lanes, &mut met.lit, i, lit);
+                store(lanes, &mut met.gleam, i, gleam);
             }
         }
     }
@@ -527,31 +551,32 @@ impl Stage {
         let Buffers { rays, met, numbers, .. } = buffers;
         rays.count = 0;
         rays.bundles.clear();
-        for (shape, range) in &met.parts {
-            let Some(shape) = *shape else { continue };
-            let gloss = self.world.looks[shape].gloss;
-            if gloss == 0.0 {
-                continue;
+        for group in &met.groups {
+            let begin = rays.count;
+            for (shape, range) in &met.parts[group.parts.clone()] {
+                let gloss = shape.map_or(0.0, |shape| self.world.looks[shape].gloss);
+                if gloss == 0.0 {
+                    continue;
+                }
+                let start = rays.count;
+                for i in range.clone().step_by(L::WIDTH) {
+                    let mirrors = load(lanes, &met.mirrors, i).gt(lanes.splat(0.0));
+                    let mask = mirrors & lanes.mask(valid::<L>(i, range.end));
+                    let count = rays.count;
+                    rays.origins.pack(lanes, count, &met.points.load(lanes, i), mask);
+                    rays.directions.pack(lanes, count, &met.mirrored.load(lanes, i), mask);
+                    pack(lanes, &mut rays.glow, count, load(lanes, &met.gleam, i), mask);
+                    pack(lanes, &mut rays.share, count, load(lanes, &met.share, i), mask);
+                    rays.count +=
+                        pack(lanes, &mut rays.parent, count, load(lanes, numbers, i), mask);
+                }
+                for share in &mut rays.share[start..rays.count] {
+                    *share = f64::from(*share as f32 * gloss);
+                }
             }
-            let start = rays.count;
-            for i in range.clone().step_by(L::WIDTH) {
-                let mirrors = lanes.load(&met.mirrors[i..]).gt(lanes.splat(0.0));
-                let mask = mirrors & lanes.mask(valid::<L>(i, range.end));
-                let count = rays.count;
-                rays.origins.pack(count, &met.points.load(lanes, i), mask);
-                rays.directions.pack(count, &met.mirrored.load(lanes, i), mask);
-                lanes.load(&met.gleam[i..]).store_packed(mask, &mut rays.glow[count..]);
-                lanes.load(&met.share[i..]).store_packed(mask, &mut rays.share[count..]);
-                rays.count +=
-                    lanes.load(&numbers[i..]).store_packed(mask, &mut rays.parent[count..]);
-            }
-            for share in &mut rays.share[start..rays.count] {
-                *share = f64::from(*share as f32 * gloss);
-            }
-            match rays.bundles.last_mut() {
-                Some(last) if last.len() < LEAST_BUNDLE => last.end = rays.count,
-                _ if rays.count > start => rays.bundles.push(start..rays.count),
-                _ => {}
+            if rays.count > begin {
+                let (range, around) = (begin..rays.count, group.around);
+                rays.bundles.push(Bundle { range, around, cone: None });
             }
         }
         in_codes(&mut rays.glow[..rays.count]);
@@ -571,8 +596,9 @@ fn in_codes(sums: &mut [f64]) {
 fn fold(levels: &mut [Level; MOST_MIRRORS + 1], depth: usize) {
     let (above, below) = levels.split_at_mut(depth);
     let (Some(above), Some(below)) = (above.last_mut(), below.first()) else { return };
-    for i in 0..below.count {
-        let parent = below.parent[i] as usize;
+    for i in 0..below.count.min(BATCH) {
+        // In range; this shows it.
+        let parent = (below.parent[i] as u32 as usize).min(BATCH - 1);
         let gloss = above.gloss[parent];
         for (own, shown) in above.colour.iter_mut().zip(&below.colour) {
             own[parent] = shown[i] * gloss + own[parent] * (1.0 - gloss);
