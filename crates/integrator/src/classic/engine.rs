@@ -80,14 +80,45 @@ impl Tracer for OriginalTracer {
             return dispatch(self.lanes, Tile { stage, window, pixels, counts });
         }
         let mut buffer = [[0.0; 3]; (SIDE * SIDE) as usize];
-        for index in 0..window.tile_count(SIDE) {
-            let part = window.tile(SIDE, index);
-            let colours = &mut buffer[..part.pixels() as usize];
-            dispatch(self.lanes, Tile { stage, window: part, pixels: colours, counts });
-            for (row, y) in colours.chunks_exact(part.width as usize).zip(part.y..) {
-                let left = (part.x - window.x) as usize;
-                let start = (y - window.y) as usize * window.width as usize + left;
-                pixels[start..start + row.len()].copy_from_slice(row);
+        for top in (0..window.height).step_by(SIDE as usize) {
+            for left in (0..window.width).step_by(SIDE as usize) {
+                let (width, height) =
+                    (SIDE.min(window.width - left), SIDE.min(window.height - top));
+                let part = Window { x: window.x + left, y: window.y + top, width, height };
+                let colours = &mut buffer[..part.pixels() as usize];
+                dispatch(self.lanes, Tile { stage, window: part, pixels: colours, counts });
+                for (row, y) in colours.chunks_exact(width as usize).zip(top..) {
+                    let start = (y * window.width + left) as usize;
+                    pixels[start..start + row.len()].copy_from_slice(row);
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lancer_scene::{Camera, Colour, Light, Shape, Surface};
+
+    #[test]
+    fn large_tiles_are_put_together_from_small_ones() {
+        let scene = Scene::builder()
+            .camera(Camera::new([0.0, -4.0, 0.0], [0.0, -3.0, 0.0], 1.0, [50, 40]))
+            .light(Light::sun([0.2, 1.0, -0.3], 1.0))
+            .shape(Shape::sphere([0.0; 3], 1.0, Surface::new(Colour::RED)))
+            .build()
+            .expect("valid");
+        let tracer = Classic.prepare(&scene, &KernelSettings::default());
+        let mut counts = RayCounts::default();
+        let window = Window { x: 3, y: 2, width: 41, height: 35 };
+        let mut pixels = vec![[0.0; 3]; 41 * 35];
+        tracer.tile(window, &mut pixels, &mut counts);
+        assert_eq!(counts.primary, 41 * 35);
+        for y in 0..35 {
+            for x in 0..41 {
+                let pixel = tracer.pixel(3 + x, 2 + y, &mut counts);
+                assert_eq!(pixels[(y * 41 + x) as usize], pixel, "{x},{y}");
             }
         }
     }
