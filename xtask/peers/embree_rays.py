@@ -15,7 +15,7 @@ try:
     from embreex.mesh_construction import TriangleMesh
     from embreex.rtcore_scene import EmbreeScene
 except ImportError as e:
-    print(f"{e}; pip install embreex numpy", flush=True)
+    print(e, flush=True)
     sys.exit()
 
 folder = sys.argv[1]

@@ -20,7 +20,7 @@ impl Embree {
     /// Starts it, or tells what is missing.
     pub(super) fn start() -> Result<Self, String> {
         let folder = tempfile::tempdir().map_err(|e| e.to_string())?;
-        let script = Script::start("embree_rays.py", folder.path())?;
+        let script = Script::start("embree_rays.py", folder.path(), "pip install embreex numpy")?;
         Ok(Self { script, folder })
     }
 

@@ -14,6 +14,10 @@ pub(super) const TITLE: &str = "Other renderers";
 
 const PIXELS: [u32; 2] = [2000, 1500];
 
+/// How to install it.
+const MITSUBA: &str = "pip install mitsuba numpy, and LLVM for it: on Debian apt-get install libllvm19, and \
+     DRJIT_LIBLLVM_PATH where it takes an older one";
+
 /// Works that take turns.
 enum Work {
     Lancer(&'static str),
@@ -37,7 +41,7 @@ pub(super) fn measure(args: &BenchArgs) -> Result<Section, Failure> {
             "POV-Ray was not measured: `povray` does not start: {e}; on Debian: apt-get install povray."
         )),
     }
-    let mut mitsuba = match Script::start("mitsuba_readme.py", folder.path()) {
+    let mut mitsuba = match Script::start("mitsuba_readme.py", folder.path(), MITSUBA) {
         Ok(script) => {
             works.push(Work::Mitsuba);
             Some(script)

@@ -1,6 +1,6 @@
 //! The whole process: start, read, render, write an uncompressed picture.
 
-use super::clock::{Samples, in_turn, number, seconds};
+use super::clock::{Samples, in_turn, seconds};
 use super::page::{Section, Table};
 use crate::{Failure, fail};
 use cargo_metadata::Message;
@@ -34,12 +34,13 @@ pub(super) fn program() -> Result<PathBuf, Failure> {
     program.ok_or_else(|| fail("cargo does not say where the program is"))
 }
 
-/// What one run of the program took, in seconds.
+/// What the stages of the program take.
 #[derive(Default)]
 struct Stages {
     render: Samples,
     encode: Samples,
     write: Samples,
+    rest: Samples,
 }
 
 /// Adds what the whole process takes.
@@ -64,11 +65,9 @@ pub(super) fn measure(section: &mut Section, runs: usize) -> Result<(), Failure>
     );
     let mut table = Table::new(&["engine", "lanes", "whole", "render", "encode", "write", "rest"]);
     for ((engine, lanes, stages), whole) in works.iter().zip(&samples) {
-        let Stages { render, encode, write } = &*stages.borrow();
-        let stages = [render, encode, write].map(Samples::median);
-        let rest = whole.median() - stages.iter().sum::<f64>();
+        let Stages { render, encode, write, rest } = &*stages.borrow();
         let mut row = vec![(*engine).to_owned(), (*lanes).to_owned(), whole.milliseconds()];
-        row.extend(stages.iter().chain([&rest]).map(|seconds| number(seconds * 1e3)));
+        row.extend([render, encode, write, rest].map(Samples::milliseconds));
         table.row(row);
     }
     section.add(table);
@@ -102,8 +101,10 @@ fn one(
         let seconds = stats["seconds"][name].as_f64();
         seconds.ok_or_else(|| fail(format_args!("the statistics do not tell the time of {name}")))
     };
-    stages.render.push(stage("render")?);
-    stages.encode.push(stage("encode")?);
-    stages.write.push(stage("write")?);
+    let [render, encode, write] = [stage("render")?, stage("encode")?, stage("write")?];
+    stages.render.push(render);
+    stages.encode.push(encode);
+    stages.write.push(write);
+    stages.rest.push(seconds - render - encode - write);
     Ok(seconds)
 }

@@ -17,9 +17,9 @@ pub(super) struct Script {
 }
 
 impl Script {
-    /// Starts it, or tells why that cannot be: it says `ready` where all that it
-    /// needs is there.
-    pub(super) fn start(name: &'static str, folder: &Path) -> Result<Self, String> {
+    /// Starts it, or tells why that cannot be and how to install what it needs:
+    /// it says `ready` where all of that is there.
+    pub(super) fn start(name: &'static str, folder: &Path, install: &str) -> Result<Self, String> {
         let python = std::env::var_os("LANCER_PYTHON").unwrap_or_else(|| "python3".into());
         let mut process = Command::new(&python)
             .arg(paths::top().join("xtask/peers").join(name))
@@ -35,8 +35,8 @@ impl Script {
         let mut script = Self { process, asked: Some(asked), said: BufReader::new(said), name };
         match script.line() {
             Ok(line) if line == "ready" => Ok(script),
-            Ok(line) => Err(line),
-            Err(failure) => Err(failure.to_string()),
+            Ok(line) => Err(format!("{line}; {install}")),
+            Err(failure) => Err(format!("{failure}; {install}")),
         }
     }
 
