@@ -28,9 +28,9 @@
 //! ```
 #![forbid(unsafe_code)]
 
-mod bvh;
 mod checker;
 mod crossing;
+mod hierarchy;
 mod hit;
 mod listed;
 mod near;

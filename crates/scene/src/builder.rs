@@ -102,7 +102,7 @@ impl SceneBuilder {
             self.mistakes.push(OutOfRange::new("missing", "exactly one").in_field("camera"));
         }
         // Whether it is too much to be prepared.
-        if let Err(e) = Group::new(None, Vec::new(), self.groups.clone()) {
+        if let Err(e) = Group::measure(self.shapes.len(), &self.groups) {
             self.mistakes.push(e.in_field("groups"));
         }
         match self.camera {

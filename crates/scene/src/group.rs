@@ -26,8 +26,9 @@ impl Group {
     pub const DEEPEST: usize = 64;
 
     /// How many shapes a scene may show, those of groups counted as often as
-    /// they are placed (a mesh is one shape).
-    pub const MOST_SHAPES: u64 = 10_000_000;
+    /// they are placed (a mesh is one shape). Only what is described takes memory;
+    /// each that is shown has a number of 32 bits.
+    pub const MOST_SHAPES: u64 = 1_000_000_000;
 
     /// Shapes and groups as one; `name` is for those that are used several
     /// times.
@@ -39,8 +40,15 @@ impl Group {
         shapes: Vec<Shape>,
         groups: Vec<Placed>,
     ) -> Result<Self, OutOfRange> {
+        let (shape_count, depth) = Self::measure(shapes.len(), &groups)?;
+        Ok(Self { name, shapes, groups, shape_count, depth })
+    }
+
+    /// How many shapes so many and some groups show together, and how deeply they
+    /// are nested.
+    pub(crate) fn measure(shapes: usize, groups: &[Placed]) -> Result<(u64, usize), OutOfRange> {
         let inside = groups.iter().map(|placed| placed.group.shape_count);
-        let shape_count = inside.fold(shapes.len() as u64, u64::saturating_add);
+        let shape_count = inside.fold(shapes as u64, u64::saturating_add);
         let depth = 1 + groups.iter().map(|placed| placed.group.depth).max().unwrap_or(0);
         if depth > Self::DEEPEST {
             return Err(OutOfRange::new(
@@ -51,10 +59,10 @@ impl Group {
         if shape_count > Self::MOST_SHAPES {
             return Err(OutOfRange::new(
                 format!("{shape_count} shapes"),
-                "at most 10000000 shapes, counted as often as they are placed",
+                "at most 1000000000 shapes, counted as often as they are placed",
             ));
         }
-        Ok(Self { name, shapes, groups, shape_count, depth })
+        Ok((shape_count, depth))
     }
 
     /// Its name, where it was defined to be used several times.

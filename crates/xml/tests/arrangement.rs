@@ -95,14 +95,14 @@ fn laughs(levels: usize) -> String {
 fn a_billion_laughs_are_answered_at_once() {
     let begun = Instant::now();
     assert_eq!(
-        messages(&text(&laughs(9), "<use name=\"l9\"/>")),
-        ["the definition `l8` shows 100000000 shapes"]
+        messages(&text(&laughs(11), "<use name=\"l11\"/>")),
+        ["the definition `l10` shows 10000000000 shapes"]
     );
     // As many as are allowed, and one more.
-    let allowed = scene(&text(&laughs(7), "<use name=\"l7\"/>"));
+    let allowed = scene(&text(&laughs(9), "<use name=\"l9\"/>"));
     assert_eq!(allowed.shape_count(), Group::MOST_SHAPES);
-    let one_more = text(&laughs(7), &format!("<use name=\"l7\"/>{BALL}"));
-    assert_eq!(messages(&one_more), ["<shapes> shows 10000001 shapes"]);
+    let one_more = text(&laughs(9), &format!("<use name=\"l9\"/>{BALL}"));
+    assert_eq!(messages(&one_more), ["<shapes> shows 1000000001 shapes"]);
     // Nothing at all, two to the power of a thousand times.
     let mut nothing = "<define name=\"l0\"/>".to_owned();
     for level in 1..=1000 {

@@ -44,12 +44,14 @@
 //! }
 //! ```
 
+mod eight;
 mod one;
 #[cfg(test)]
 mod tests;
 mod vectors;
 mod wide;
 
+pub use eight::{Answers, Array, Doubles, Eight, Singles};
 use fearless_simd::Level;
 pub use one::One;
 use std::fmt::Debug;
@@ -58,7 +60,7 @@ pub use vectors::{Vectors, larger, smaller};
 pub use wide::Wide;
 
 /// How many lanes there are, and the proof that the processor has them.
-pub trait Lanes: Copy + Debug + Send + Sync + 'static {
+pub trait Lanes: Eight + Debug + Send + Sync + 'static {
     /// How many doubles are computed with at once.
     const WIDTH: usize;
     /// So many doubles.

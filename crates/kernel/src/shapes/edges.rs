@@ -30,6 +30,7 @@ pub(crate) struct Shear {
     /// Its other components in terms of the longest one, and that.
     slopes: [f64; 2],
     longest: f64,
+    others: [f64; 2],
 }
 
 /// Where a ray meets a triangle.
@@ -50,22 +51,39 @@ struct Seen {
 }
 
 impl Shear {
-    #[inline]
+    #[inline(always)]
     pub(crate) fn new(ray: &Ray) -> Self {
         let z = ray.direction.iamax();
         let axes = [(z + 1) % 3, (z + 2) % 3, z];
         let longest = ray.direction[z];
-        let slopes = [ray.direction[axes[0]] / longest, ray.direction[axes[1]] / longest];
-        Self { origin: ray.origin, axes, slopes, longest }
+        let others = [ray.direction[axes[0]], ray.direction[axes[1]]];
+        let slopes = others.map(|component| component / longest);
+        Self { origin: ray.origin, axes, slopes, longest, others }
     }
 
-    #[inline]
+    /// Those of the plane, and that of the direction's longest component.
+    #[inline(always)]
+    pub(crate) const fn axes(&self) -> [usize; 3] {
+        self.axes
+    }
+
+    #[inline(always)]
+    pub(crate) const fn origin(&self) -> &Point {
+        &self.origin
+    }
+
+    #[inline(always)]
+    pub(crate) const fn slopes(&self) -> [f64; 2] {
+        self.slopes
+    }
+
+    #[inline(always)]
     fn see(&self, vertex: &Point) -> Seen {
         let [x, y, z] = self.axes.map(|axis| vertex[axis] - self.origin[axis]);
         Seen { x: x - self.slopes[0] * z, y: y - self.slopes[1] * z, z }
     }
 
-    #[inline]
+    #[inline(always)]
     pub(crate) fn meet(&self, corners: &[Point; 3]) -> Option<Meeting> {
         let [a, b, c] = [&corners[0], &corners[1], &corners[2]].map(|vertex| self.see(vertex));
         // All on the same side: NaN is on none.
@@ -85,13 +103,30 @@ impl Shear {
         let depth = weights[0] * a.z + weights[1] * b.z + weights[2] * c.z;
         // Between those of its corners, also where the ray grazes it.
         let depth = depth.min(a.z.max(b.z).max(c.z)).max(a.z.min(b.z).min(c.z));
-        Some(Meeting { t: depth / self.longest, weights })
+        Some(Meeting { t: self.in_box(corners, depth / self.longest), weights })
+    }
+}
+
+impl Shear {
+    /// The t, moved to where the ray is in the triangle's box along the two other
+    /// axes, too. Where the ray grazes the triangle, rounding can take it far along
+    /// the ray; with this it is never nearer than a box that holds the triangle.
+    #[inline(always)]
+    fn in_box(&self, corners: &[Point; 3], mut t: f64) -> f64 {
+        for (axis, component) in [0, 1].map(|k| (self.axes[k], self.others[k])) {
+            if component != 0.0 {
+                let inverse = 1.0 / component;
+                let [a, b, c] = [0, 1, 2].map(|k| (corners[k][axis] - self.origin[axis]) * inverse);
+                t = t.min(a.max(b).max(c)).max(a.min(b).min(c));
+            }
+        }
+        t
     }
 }
 
 /// On which side of the line from p to q the ray goes by; 0 only where p and q
 /// are seen in the same place, or for NaN.
-#[inline]
+#[inline(always)]
 fn side(p: Seen, q: Seen) -> f64 {
     let sign = compare_products(p.x, q.y, p.y, q.x);
     if sign != 0.0 {

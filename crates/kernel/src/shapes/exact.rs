@@ -11,7 +11,7 @@ use crate::lanes::{Real, Vectors};
 use lancer_math::Vector;
 
 /// The rounded product, and the exact product minus it.
-#[inline]
+#[inline(always)]
 pub(crate) fn two_product(a: f64, b: f64) -> (f64, f64) {
     let product = a * b;
     (product, a.mul_add(b, -product))
@@ -57,7 +57,7 @@ fn moved<R: Real>(o: R, c: R, t: R, d: R) -> R {
 }
 
 /// a b - c d, of which cancellation takes no digits.
-#[inline]
+#[inline(always)]
 pub(crate) fn difference_of_products(a: f64, b: f64, c: f64, d: f64) -> f64 {
     let (product, lost) = two_product(c, d);
     a.mul_add(b, -product) - lost
@@ -67,7 +67,7 @@ pub(crate) fn difference_of_products(a: f64, b: f64, c: f64, d: f64) -> f64 {
 ///
 /// Rounding keeps the order of two products unless it makes them equal, so
 /// what was lost is needed only then.
-#[inline]
+#[inline(always)]
 pub(crate) fn compare_products(a: f64, b: f64, c: f64, d: f64) -> f64 {
     let (first, second) = (a * b, c * d);
     if first == second { a.mul_add(b, -first) - c.mul_add(d, -second) } else { first - second }

@@ -9,7 +9,7 @@ mod edges;
 mod exact;
 mod flat;
 mod frame;
-mod mesh;
+pub(crate) mod mesh;
 pub(crate) mod plane;
 pub(crate) mod sphere;
 #[cfg(test)]
@@ -18,22 +18,24 @@ mod tetrahedron;
 mod torus;
 mod triangle;
 
+use crate::lanes::Width;
 use crate::primitive::Primitive;
 use lancer_scene::Geometry;
+use std::sync::Arc;
 
 /// The shape made ready.
-pub(crate) fn primitive(geometry: &Geometry) -> Box<dyn Primitive> {
+pub(crate) fn primitive(geometry: &Geometry, width: Width) -> Arc<dyn Primitive> {
     match geometry {
-        Geometry::Sphere(sphere) => Box::new(sphere::Ball::new(sphere)),
-        Geometry::Plane(plane) => Box::new(plane::HalfSpace::new(plane)),
-        Geometry::Disc(disc) => Box::new(flat::Round::new(disc)),
-        Geometry::Rectangle(rectangle) => Box::new(flat::Sheet::new(rectangle)),
-        Geometry::Triangle(triangle) => Box::new(triangle::Facet::new(triangle)),
-        Geometry::Cuboid(cuboid) => Box::new(cuboid::Slabs::new(cuboid)),
-        Geometry::Tetrahedron(solid) => Box::new(tetrahedron::Faces::new(solid)),
-        Geometry::Cone(cone) => Box::new(cone::Barrel::new(cone)),
-        Geometry::Torus(torus) => Box::new(torus::Ring::new(torus)),
-        Geometry::Mesh(mesh) => Box::new(mesh::Facets::new(mesh)),
-        Geometry::Custom(custom) => Box::new(custom::Own::new(custom)),
+        Geometry::Sphere(sphere) => Arc::new(sphere::Ball::new(sphere)),
+        Geometry::Plane(plane) => Arc::new(plane::HalfSpace::new(plane)),
+        Geometry::Disc(disc) => Arc::new(flat::Round::new(disc)),
+        Geometry::Rectangle(rectangle) => Arc::new(flat::Sheet::new(rectangle)),
+        Geometry::Triangle(triangle) => Arc::new(triangle::Facet::new(triangle)),
+        Geometry::Cuboid(cuboid) => Arc::new(cuboid::Slabs::new(cuboid)),
+        Geometry::Tetrahedron(solid) => Arc::new(tetrahedron::Faces::new(solid)),
+        Geometry::Cone(cone) => Arc::new(cone::Barrel::new(cone)),
+        Geometry::Torus(torus) => Arc::new(torus::Ring::new(torus)),
+        Geometry::Mesh(mesh) => Arc::new(mesh::Facets::new(mesh, width)),
+        Geometry::Custom(custom) => Arc::new(custom::Own::new(custom)),
     }
 }

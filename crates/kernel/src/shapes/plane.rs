@@ -77,8 +77,7 @@ impl<R: Real> HalfSpaces<R> {
     /// them: the quotient is where they cross.
     #[inline(always)]
     pub(crate) fn slopes<L: Lanes<Real = R>>(&self, rays: &Rays<L>) -> (R, R) {
-        let ahead = self.normal.dot(&(self.origin - rays.origin));
-        (ahead, self.normal.dot(&rays.direction))
+        slopes(&self.origin, &self.normal, rays)
     }
 
     /// The points of crossings, their errors and the unit normals.
@@ -93,6 +92,17 @@ impl<R: Real> HalfSpaces<R> {
             onto_plane(&at, &self.origin, &self.normal, self.normal.norm_squared());
         (point, error, self.unit)
     }
+}
+
+/// As [`HalfSpaces::slopes`] has it.
+#[inline(always)]
+pub(crate) fn slopes<L: Lanes>(
+    origin: &Vectors<L::Real>,
+    normal: &Vectors<L::Real>,
+    rays: &Rays<L>,
+) -> (L::Real, L::Real) {
+    let ahead = normal.dot(&(*origin - rays.origin));
+    (ahead, normal.dot(&rays.direction))
 }
 
 impl HalfSpace {

@@ -66,7 +66,11 @@ impl<R: Real> Balls<R> {
 
     /// The same for something ahead or behind.
     #[inline(always)]
-    fn may_meet_line<L: Lanes<Real = R>>(&self, rays: &Rays<L>, tame: &Tame<R>) -> R::Mask {
+    pub(crate) fn may_meet_line<L: Lanes<Real = R>>(
+        &self,
+        rays: &Rays<L>,
+        tame: &Tame<R>,
+    ) -> R::Mask {
         let from_centre = rays.origin - self.centre;
         !self.passes(tame, from_centre.dot(&tame.direction), from_centre.norm_squared())
     }

@@ -1,0 +1,136 @@
+use super::node::{Space, power_below};
+use lancer_math::{Bounds, Ray};
+
+/// A ray made ready to be held against boxes in singles, so that no box that it
+/// goes through is lost.
+///
+/// The origin is moved, in doubles, to where the ray enters the box around all
+/// (or to its beginning, where that is inside), and into the hierarchy's space.
+/// From there on everything is at most a few units away. What can have been lost
+/// by then is at most `error` below; with that and the rounding to a single the
+/// origin is moved along the ray where it is held against the faces that the ray
+/// enters through, and back where it is held against those that it leaves
+/// through. So the differences of a face and the origin that are positive are
+/// never too large at the one and never too small at the other, but for
+/// roundings of their own: for those the inverse of the direction has a margin
+/// (Ize, *Robust BVH Ray Traversal*, JCGT 2(2), 2013). Negative ones do no harm:
+/// the interval begins with 0.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Query {
+    /// For the faces where the ray goes in, and for those where it comes out.
+    pub(super) origin: [[f32; 3]; 2],
+    pub(super) inverse: [[f32; 3]; 2],
+    /// Whether it goes to lower coordinates: 1 if so.
+    pub(super) side: [u8; 3],
+    /// Where in t the moved origin is.
+    start: f64,
+    /// How much of what boxes count in is in one t.
+    unit: f64,
+}
+
+/// Four units in the last place of a single: more than the roundings of a
+/// difference, an inverse and a product.
+const MARGIN: f64 = 1.0 / 4_194_304.0;
+
+/// A component below this times the largest one, or as small, moves the ray over
+/// the whole box by less than an error does.
+const STANDING: f64 = 1.0 / (1u64 << 60) as f64;
+
+/// Sixteen halves of a unit in the last place of a double: more than the
+/// roundings where the origin is moved, and where the t of a hit is computed.
+const LOST: f64 = 8.0 * f64::EPSILON;
+
+impl Query {
+    /// Nothing where the ray is not in the box for any t from `from` to `to`, or is
+    /// no ray. All boxes are larger by `margin` on all sides.
+    #[inline(always)]
+    pub(super) fn new(
+        space: &Space,
+        bounds: &Bounds,
+        ray: &Ray,
+        margin: f64,
+        (from, to): (f64, f64),
+    ) -> Option<Self> {
+        let d = ray.direction;
+        let start = enter(bounds, ray, margin, from, to)?;
+        let from_centre = ray.origin - space.centre;
+        let step = d * start;
+        let far = from_centre.abs() + step.abs();
+        let longest = d.amax();
+        if !(longest > 0.0 && from_centre.sum().is_finite() && d.sum().is_finite()) {
+            return None;
+        }
+        let Some(power) = power_below(longest).filter(|_| space.scale != 0.0) else {
+            return Some(Self::ALL);
+        };
+        let origin = (from_centre + step) * space.scale;
+        let error = far.map(|c| (c * space.scale + 1.0) * LOST + margin * space.scale);
+        if !(error.x <= 1.0 && error.y <= 1.0 && error.z <= 1.0) {
+            return Some(Self::ALL);
+        }
+        let mut query = Self {
+            origin: [[0.0; 3]; 2],
+            inverse: [[0.0; 3]; 2],
+            side: [0, 1, 2].map(|axis| u8::from(d[axis].is_sign_negative())),
+            start,
+            unit: power * space.scale,
+        };
+        for axis in 0..3 {
+            let along = d[axis] / power;
+            let least = STANDING.copysign(along);
+            let inverse = 1.0 / if along.abs() < STANDING { least } else { along };
+            query.inverse[0][axis] = (inverse * (1.0 - MARGIN)) as f32;
+            query.inverse[1][axis] = (inverse * (1.0 + MARGIN)) as f32;
+            let o = origin[axis];
+            let ahead = (error[axis] + o.abs() * MARGIN).copysign(along);
+            query.origin[0][axis] = (o + ahead) as f32;
+            query.origin[1][axis] = (o - ahead) as f32;
+        }
+        Some(query)
+    }
+
+    /// What goes through every box: for rays whose numbers leave the range of what
+    /// is computed here.
+    const ALL: Self = Self {
+        origin: [[4.0; 3], [-4.0; 3]],
+        inverse: [[1.0; 3]; 2],
+        side: [0; 3],
+        start: 0.0,
+        unit: f64::INFINITY,
+    };
+
+    /// How far that t is, rounded up, as boxes count it.
+    #[inline(always)]
+    pub(super) fn reach(&self, t: f64) -> f32 {
+        let reach = ((t - self.start) * self.unit) as f32;
+        // Comparisons, so that what is not a number is 0.
+        if reach > 0.0 { reach.next_up() } else { f32::MIN_POSITIVE }
+    }
+}
+
+/// More than one, by more than the roundings of a difference, an inverse and a
+/// product can make a far side seem nearer.
+const ROUNDED_UP: f64 = 1.0 + 8.0 * f64::EPSILON;
+
+/// From where on the ray is in the box, if it is so between `from` and `to`.
+///
+/// Along an axis in which the ray does not move, it is between the sides
+/// everywhere or nowhere; exactly on one, infinity times 0 is not a number
+/// and, as it is compared here, does not narrow the interval.
+#[inline(always)]
+fn enter(bounds: &Bounds, ray: &Ray, margin: f64, from: f64, to: f64) -> Option<f64> {
+    let (mut near, mut far) = (from, to);
+    for axis in 0..3 {
+        let inverse = 1.0 / ray.direction[axis];
+        let low = (bounds.min[axis] - margin - ray.origin[axis]) * inverse;
+        let high = (bounds.max[axis] + margin - ray.origin[axis]) * inverse;
+        // By the bit: 1 / -0 is minus infinity.
+        let (enter, leave) = if inverse.is_sign_negative() { (high, low) } else { (low, high) };
+        // Outward: away from where the ray is.
+        let enter = if enter > 0.0 { enter / ROUNDED_UP } else { enter * ROUNDED_UP };
+        let leave = if leave > 0.0 { leave * ROUNDED_UP } else { leave / ROUNDED_UP };
+        near = if enter > near { enter } else { near };
+        far = if leave < far { leave } else { far };
+    }
+    (near <= far).then_some(near)
+}

@@ -1,0 +1,182 @@
+use super::Hierarchy;
+use super::node::{CHILDREN, Child};
+use super::query::Query;
+use crate::lanes::{Eight, Singles};
+use lancer_math::{Point, Ray};
+use std::ops::{ControlFlow, Range};
+
+/// What is still to be looked at: how far away it is, by the bits, and what.
+/// Distances are not negative, so their bits are ordered as they are.
+pub(crate) struct Stack([u64; ENTRIES]);
+
+/// A power of two, so that an index is in range by masking: [`super::DEPTH`]
+/// nodes leave at most 7 children each, and there is the one in hand.
+const ENTRIES: usize = 512;
+const _: () = assert!((CHILDREN - 1) * super::DEPTH < ENTRIES);
+
+impl Stack {
+    pub(crate) const fn new() -> Self {
+        Self([0; ENTRIES])
+    }
+}
+
+#[inline(always)]
+fn entry(distance: f32, child: Child) -> u64 {
+    u64::from(distance.to_bits() & 0x7FFF_FFFF) << 32 | u64::from(child.0)
+}
+
+/// A ray along an axis, for eight boxes: where it enters and where it leaves.
+#[derive(Clone, Copy)]
+struct Axis<E: Eight> {
+    origin: [E::Singles; 2],
+    inverse: [E::Singles; 2],
+    side: usize,
+}
+
+impl<E: Eight> Axis<E> {
+    #[inline(always)]
+    fn new(lanes: E, query: &Query, axis: usize) -> Self {
+        Self {
+            origin: [lanes.single(query.origin[0][axis]), lanes.single(query.origin[1][axis])],
+            inverse: [lanes.single(query.inverse[0][axis]), lanes.single(query.inverse[1][axis])],
+            side: usize::from(query.side[axis]),
+        }
+    }
+
+    #[inline(always)]
+    fn enter(&self, lanes: E, faces: &[[f32; CHILDREN]; 2]) -> E::Singles {
+        (lanes.singles(&faces[self.side & 1]) - self.origin[0]) * self.inverse[0]
+    }
+
+    #[inline(always)]
+    fn leave(&self, lanes: E, faces: &[[f32; CHILDREN]; 2]) -> E::Singles {
+        (lanes.singles(&faces[self.side & 1 ^ 1]) - self.origin[1]) * self.inverse[1]
+    }
+}
+
+impl Hierarchy {
+    /// Calls `meet` with the places of each leaf that the ray may be in for some t
+    /// from `from` to `to`, roughly the nearest first; what it returns is the new
+    /// `to`, or that this is enough. Each box counts as larger by `margin` on all
+    /// sides.
+    #[inline(always)]
+    pub(crate) fn visit<E: Eight>(
+        &self,
+        lanes: E,
+        stack: &mut Stack,
+        ray: &Ray,
+        margin: f64,
+        (from, to): (f64, f64),
+        mut meet: impl FnMut(Range<usize>, f64) -> ControlFlow<(), f64>,
+    ) {
+        let Some(query) = Query::new(&self.space, &self.bounds, ray, margin, (from, to)) else {
+            return;
+        };
+        let axes = [0, 1, 2].map(
+            #[inline(always)]
+            |axis| Axis::new(lanes, &query, axis),
+        );
+        let zero = lanes.single(0.0);
+        let mut to = to;
+        let mut reach = query.reach(to);
+        let stack = &mut stack.0;
+        let mut height = 0;
+        let mut current = Child::node(0);
+        loop {
+            if current.is_leaf() {
+                match meet(current.places(), to) {
+                    ControlFlow::Break(()) => return,
+                    ControlFlow::Continue(nearer) if nearer < to => {
+                        to = nearer;
+                        reach = query.reach(to);
+                    }
+                    ControlFlow::Continue(_) => {}
+                }
+            } else if let Some(node) = self.nodes.get(current.0 as usize) {
+                let [x, y, z] = &node.faces;
+                let enter = axes[0]
+                    .enter(lanes, x)
+                    .max(axes[1].enter(lanes, y))
+                    .max(axes[2].enter(lanes, z).max(zero));
+                let leave = axes[0]
+                    .leave(lanes, x)
+                    .min(axes[1].leave(lanes, y))
+                    .min(axes[2].leave(lanes, z).min(lanes.single(reach)));
+                let mut bits = enter.le(leave);
+                if bits != 0 {
+                    let mut distances = [0.0; CHILDREN];
+                    enter.store(&mut distances);
+                    let mut next = || {
+                        let slot = bits.trailing_zeros() as usize & (CHILDREN - 1);
+                        bits &= bits - 1;
+                        (entry(distances[slot], node.children[slot]), bits != 0)
+                    };
+                    let (first, more) = next();
+                    if !more {
+                        current = Child(first as u32);
+                        continue;
+                    }
+                    let (second, more) = next();
+                    let (mut nearest, other) =
+                        if first < second { (first, second) } else { (second, first) };
+                    stack[height & (ENTRIES - 1)] = other;
+                    height += 1;
+                    let bottom = height - 1;
+                    let mut more = more;
+                    while more {
+                        let (mut new, rest) = next();
+                        more = rest;
+                        if new < nearest {
+                            std::mem::swap(&mut new, &mut nearest);
+                        }
+                        // The farthest one at the bottom.
+                        let mut at = height;
+                        while at > bottom && stack[(at - 1) & (ENTRIES - 1)] < new {
+                            stack[at & (ENTRIES - 1)] = stack[(at - 1) & (ENTRIES - 1)];
+                            at -= 1;
+                        }
+                        stack[at & (ENTRIES - 1)] = new;
+                        height += 1;
+                    }
+                    current = Child(nearest as u32);
+                    continue;
+                }
+            }
+            // The next one that is still near enough.
+            loop {
+                if height == 0 {
+                    return;
+                }
+                height -= 1;
+                let entry = stack[height & (ENTRIES - 1)];
+                if f32::from_bits((entry >> 32) as u32) <= reach {
+                    current = Child(entry as u32);
+                    break;
+                }
+            }
+        }
+    }
+
+    /// Calls `meet` with the places of each leaf whose box may hold the point.
+    pub(crate) fn visit_around(&self, point: &Point, mut meet: impl FnMut(Range<usize>)) {
+        if !self.bounds.contains(point) || self.nodes.is_empty() {
+            return;
+        }
+        let [low, high] = self.space.outward(&lancer_math::Bounds { min: *point, max: *point });
+        let mut open = vec![0_u32];
+        while let Some(number) = open.pop() {
+            let node = &self.nodes[number as usize];
+            for slot in 0..CHILDREN {
+                let Some((sides, child)) = node.child(slot) else { continue };
+                if (0..3).any(|i| high[i] < sides[0][i] || low[i] > sides[1][i]) {
+                    continue;
+                }
+                if child.is_leaf() {
+                    meet(child.places());
+                } else {
+                    open.push(child.0);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,209 @@
+//! From the description of a scene to its spaces.
+
+use super::balls::{Given, Spheres};
+use super::looks::{Look, Looks};
+use super::planes::Planes;
+use super::space::{Entry, Holds, Kept, Kind, Other, Own, Size, Space, Stand, norms};
+use crate::hierarchy::Hierarchy;
+use crate::lanes::Width;
+use crate::primitive::Primitive;
+use crate::shapes::mesh::Facets;
+use crate::shapes::plane::HalfSpace;
+use crate::shapes::primitive;
+use crate::shapes::sphere::Ball;
+use lancer_math::{Bounds, Placement};
+use lancer_scene::{Geometry, Group, Mesh, Placed, Scene, Shape};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Everything that is prepared of a scene.
+pub(super) struct Built {
+    pub(super) root: Space,
+    /// Those of the groups; each after those that stand in it.
+    pub(super) spaces: Vec<Space>,
+    pub(super) looks: Vec<Look>,
+}
+
+pub(super) fn build(scene: &Scene, width: Width) -> Built {
+    let mut builder = Builder { width, ..Builder::default() };
+    let root = builder.space(&scene.shapes, &scene.groups);
+    Built { root, spaces: builder.spaces, looks: builder.looks.finish() }
+}
+
+#[derive(Default)]
+struct Builder {
+    width: Width,
+    spaces: Vec<Space>,
+    looks: Looks,
+    /// How many shapes of the description have been numbered.
+    shape_count: u32,
+    /// The spaces of groups, and the meshes, by address: only looked up, never
+    /// walked, so that no address decides an order.
+    known: BTreeMap<*const Group, u32>,
+    meshes: BTreeMap<*const Mesh, Arc<Facets>>,
+}
+
+impl Builder {
+    /// Shapes are numbered as a reader meets them: those of a group before those
+    /// of groups in it, and each group where it stands first.
+    fn space(&mut self, shapes: &[Shape], groups: &[Placed]) -> Space {
+        let first_shape = self.shape_count;
+        self.shape_count = self.shape_count.saturating_add(shapes.len() as u32);
+        let looks: Vec<u32> =
+            shapes.iter().map(|shape| self.looks.number(&shape.surface)).collect();
+        let mut parts = Parts::default();
+        for (i, shape) in (0..).zip(shapes) {
+            self.shape(i, shape, &mut parts);
+        }
+        let mut item_count = shapes.len() as u32;
+        for placed in groups.iter().filter(|placed| placed.group.shape_count() > 0) {
+            let space = self.group(&placed.group);
+            parts.stand(placed, space, &self.spaces[space as usize], item_count);
+            item_count = item_count.saturating_add(self.spaces[space as usize].item_count);
+        }
+        parts.finish(first_shape, &looks, item_count)
+    }
+
+    fn group(&mut self, group: &Arc<Group>) -> u32 {
+        if let Some(&space) = self.known.get(&Arc::as_ptr(group)) {
+            return space;
+        }
+        let space = self.space(group.shapes(), group.groups());
+        self.spaces.push(space);
+        let number = (self.spaces.len() - 1) as u32;
+        self.known.insert(Arc::as_ptr(group), number);
+        number
+    }
+
+    fn shape(&mut self, number: u32, shape: &Shape, parts: &mut Parts) {
+        let surface = &shape.surface;
+        let is_transparent = surface.is_transparent();
+        // A mesh finds out by looking at all its edges: only where it matters.
+        let is_solid = surface.has_medium() && shape.geometry.is_closed();
+        let holds = Holds { opaque: !is_transparent, transparent: is_transparent, solid: is_solid };
+        parts.holds = parts.holds.and(holds);
+        if let Geometry::Sphere(sphere) = &shape.geometry {
+            let ball = Ball::new(sphere);
+            if let Some(bounds) = ball.bounds().filter(is_finite) {
+                parts.size = parts.size.and(Size::of(&bounds));
+                parts.around = parts.around.union(bounds);
+                parts.of_balls = parts.of_balls.and(holds);
+                parts.balls.push(Given { shape: number, ball, bounds, is_transparent });
+                return;
+            }
+        }
+        let primitive = match &shape.geometry {
+            Geometry::Mesh(mesh) => {
+                let known = self.meshes.entry(Arc::as_ptr(mesh));
+                let facets = known.or_insert_with(|| Arc::new(Facets::new(mesh, self.width)));
+                Kind::Mesh(Arc::clone(facets))
+            }
+            geometry => Kind::Any(primitive(geometry, self.width)),
+        };
+        let bounds = primitive.get().bounds().filter(is_finite);
+        if let Some(bounds) = &bounds {
+            parts.size = parts.size.and(Size::of(bounds));
+        }
+        if let Geometry::Plane(plane) = &shape.geometry {
+            parts.planes.push((number, HalfSpace::new(plane), is_transparent));
+        } else {
+            parts.enter(Entry::other(parts.others.len()), bounds);
+        }
+        parts.others.push(Other { primitive, shape: number, is_transparent, is_solid });
+    }
+}
+
+/// A space while it is put together.
+struct Parts {
+    balls: Vec<Given>,
+    of_balls: Holds,
+    planes: Vec<(u32, HalfSpace, bool)>,
+    others: Vec<Other>,
+    placed: Vec<Stand>,
+    bounded: Vec<Entry>,
+    boxes: Vec<Bounds>,
+    unbounded: Vec<Entry>,
+    holds: Holds,
+    size: Size,
+    around: Bounds,
+    depth: usize,
+}
+
+impl Default for Parts {
+    fn default() -> Self {
+        Self {
+            balls: Vec::new(),
+            of_balls: Holds::default(),
+            planes: Vec::new(),
+            others: Vec::new(),
+            placed: Vec::new(),
+            bounded: Vec::new(),
+            boxes: Vec::new(),
+            unbounded: Vec::new(),
+            holds: Holds::default(),
+            size: Size::NONE,
+            around: Bounds::EMPTY,
+            depth: 1,
+        }
+    }
+}
+
+impl Parts {
+    fn enter(&mut self, entry: Entry, bounds: Option<Bounds>) {
+        match bounds {
+            Some(bounds) => {
+                self.around = self.around.union(bounds);
+                self.boxes.push(bounds);
+                self.bounded.push(entry);
+            }
+            None => self.unbounded.push(entry),
+        }
+    }
+
+    fn stand(&mut self, placed: &Placed, number: u32, space: &Space, first: u32) {
+        // Negative zeros become zeros, as they do in every product.
+        let placement = placed.placement.then(&Placement::IDENTITY);
+        let bounds = space.bounds.map(|bounds| placement.bounds(&bounds)).filter(is_finite);
+        self.enter(Entry::placed(self.placed.len()), bounds);
+        self.size = self.size.and(space.size.placed(&placement));
+        self.holds = self.holds.and(space.holds);
+        self.depth = self.depth.max(1 + space.depth);
+        let (_, shrink) = norms(&placement);
+        self.placed.push(Stand { placement, shrink, space: number, first, holds: space.holds });
+    }
+
+    fn finish(self, first_shape: u32, looks: &[u32], item_count: u32) -> Space {
+        let spheres = Spheres::new(&self.balls, self.of_balls);
+        let own = looks.iter().map(|&look| Own { look, kept: Kept::Other(0) });
+        let mut own: Vec<Own> = own.collect();
+        for (index, other) in (0..).zip(&self.others) {
+            own[other.shape as usize].kept = Kept::Other(index);
+        }
+        for (shape, spot) in spheres.spots() {
+            own[shape as usize].kept = Kept::Sphere(spot);
+        }
+        // Each has a way of its own to be met, so each has a leaf.
+        let (hierarchy, order) = Hierarchy::with_leaves_of(1, self.boxes.len(), |i| self.boxes[i]);
+        let has_end = self.unbounded.is_empty() && self.planes.is_empty();
+        Space {
+            first_shape,
+            own,
+            spheres,
+            planes: Planes::blocks(&self.planes),
+            others: self.others,
+            placed: self.placed,
+            bounded: order.iter().map(|&i| self.bounded[i as usize]).collect(),
+            hierarchy,
+            unbounded: self.unbounded,
+            item_count,
+            holds: self.holds,
+            size: self.size,
+            bounds: has_end.then_some(self.around),
+            depth: self.depth,
+        }
+    }
+}
+
+pub(super) fn is_finite(bounds: &Bounds) -> bool {
+    bounds.sides().iter().all(|side| side.is_finite())
+}

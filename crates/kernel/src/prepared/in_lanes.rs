@@ -1,0 +1,192 @@
+//! Whole registers of rays against a scene whose own spheres and planes are few.
+
+use super::build::is_finite;
+use super::walk::Known;
+use super::{Any, Nearest, Prepared, Which};
+use crate::checker::{self, LaneCells};
+use crate::lanes::{Lanes, MOST, Mask, Real, lanes_of};
+use crate::listed::{Candidates, Goal, LaneHits, LanePoints, Listed, MOST_LISTED};
+use crate::primitive::Primitive;
+use crate::shapes::plane::HalfSpace;
+use crate::shapes::sphere::Ball;
+use crate::{Hit, Rays};
+use lancer_math::{Point, Vector};
+use lancer_scene::{Checker, Geometry, Shape};
+
+/// More spheres than these are met through their hierarchy.
+const MOST_SPHERES: usize = 16;
+
+/// A scene's own spheres and its planes, each kind if it is few, and which are.
+pub(super) fn listed(shapes: &[Shape]) -> (Listed, Known) {
+    let ball = |shape: &Shape| match &shape.geometry {
+        Geometry::Sphere(sphere) => {
+            let ball = Ball::new(sphere);
+            ball.bounds().is_some_and(|bounds| is_finite(&bounds)).then_some(ball)
+        }
+        _ => None,
+    };
+    let plane = |shape: &Shape| match &shape.geometry {
+        Geometry::Plane(plane) => Some(HalfSpace::new(plane)),
+        _ => None,
+    };
+    let few = |count: usize, most: usize| count <= most;
+    let known = Known {
+        spheres: few(shapes.iter().filter_map(ball).take(MOST_SPHERES + 1).count(), MOST_SPHERES),
+        planes: few(shapes.iter().filter_map(plane).take(MOST_LISTED + 1).count(), MOST_LISTED),
+    };
+    let mut listed = Listed::default();
+    for (item, shape) in (0..).zip(shapes) {
+        let is_transparent = shape.surface.is_transparent();
+        if let Some(ball) = ball(shape).filter(|_| known.spheres) {
+            listed.add_ball(item, ball, is_transparent);
+        } else if let Some(plane) = plane(shape).filter(|_| known.planes) {
+            listed.add_plane(item, plane, is_transparent);
+        }
+    }
+    (listed, known)
+}
+
+impl Prepared {
+    /// Whether there is nothing but what is met in lanes.
+    fn lists_all(&self) -> bool {
+        let Known { spheres, planes } = self.listed_kinds;
+        let root = &self.root;
+        spheres && planes && root.bounded.is_empty() && root.unbounded.is_empty()
+    }
+
+    /// The nearest hits with 0 < t < `t_max` of the `asked` rays of a register; for
+    /// others it answers anything. Listed shapes that are no candidates are not asked.
+    #[inline(always)]
+    pub fn nearest_in_lanes<L: Lanes>(
+        &self,
+        rays: &Rays<L>,
+        t_max: f64,
+        asked: L::Mask,
+        among: &Candidates,
+    ) -> LaneHits<L::Real> {
+        let hits = self.listed.nearest(rays, rays.lanes.splat(t_max), among);
+        if self.lists_all() { hits } else { self.nearest_lane_by_lane(rays, t_max, asked, hits) }
+    }
+
+    #[inline(never)]
+    fn nearest_lane_by_lane<L: Lanes>(
+        &self,
+        rays: &Rays<L>,
+        t_max: f64,
+        asked: L::Mask,
+        hits: LaneHits<L::Real>,
+    ) -> LaneHits<L::Real> {
+        let (mut t, mut item, mut part) = ([0.0; MOST], [0.0; MOST], [0.0; MOST]);
+        hits.t.store(&mut t);
+        hits.item.store(&mut item);
+        for k in lanes_of(asked.bits()) {
+            let known = (item[k] >= 0.0).then(|| Hit { t: t[k], item: item[k] as u32, part: 0 });
+            if let Some(hit) =
+                self.ask(&rays.lane(k), Nearest::beyond(t_max, known), self.listed_kinds).best
+            {
+                (t[k], item[k], part[k]) = (hit.t, f64::from(hit.item), f64::from(hit.part));
+            }
+        }
+        let lanes = rays.lanes;
+        LaneHits { t: lanes.load(&t), item: lanes.load(&item), part: lanes.load(&part) }
+    }
+
+    /// Which of the `asked` rays of a register hit something with 0 < t < `t_max`
+    /// among some items. Listed shapes that are no candidates are not asked.
+    #[inline(always)]
+    pub fn any_in_lanes<L: Lanes>(
+        &self,
+        rays: &Rays<L>,
+        t_max: f64,
+        asked: L::Mask,
+        which: Which,
+        among: &Candidates,
+    ) -> L::Mask {
+        let met = self.listed.any(rays, t_max, which, among) & asked;
+        if self.lists_all() {
+            return met;
+        }
+        self.any_lane_by_lane(rays, t_max, asked, which, met)
+    }
+
+    #[inline(never)]
+    fn any_lane_by_lane<L: Lanes>(
+        &self,
+        rays: &Rays<L>,
+        t_max: f64,
+        asked: L::Mask,
+        which: Which,
+        met: L::Mask,
+    ) -> L::Mask {
+        let mut bits = met.bits();
+        for k in lanes_of((asked & !met).bits()) {
+            bits |=
+                u32::from(self.ask(&rays.lane(k), Any::new(t_max, which), self.listed_kinds).found)
+                    << k;
+        }
+        rays.lanes.mask(bits)
+    }
+
+    /// The points of hits that a register of rays has with one item, if it is one
+    /// that is met in lanes; [`expand`](Self::expand) gives the same, one by one.
+    #[inline(always)]
+    pub fn points_in_lanes<L: Lanes>(
+        &self,
+        rays: &Rays<L>,
+        t: L::Real,
+        item: u32,
+    ) -> Option<LanePoints<L::Real>> {
+        self.listed.contacts(item, rays, t)
+    }
+
+    /// Which colours of a checker points show of an item that is met in lanes.
+    #[inline(always)]
+    pub fn cells_in_lanes<L: Lanes>(
+        &self,
+        lanes: L,
+        item: u32,
+        points: &LanePoints<L::Real>,
+        checker: &Checker,
+    ) -> LaneCells<L::Mask> {
+        match self.listed.plane(item) {
+            Some(plane) => {
+                let (first, second) = plane.squares(lanes, &points.point, checker);
+                checker::cells(lanes, first, second)
+            }
+            None => checker::on_globe(lanes, &points.normal, checker.angle.get()),
+        }
+    }
+
+    /// Whether [`points_in_lanes`](Self::points_in_lanes) knows the item.
+    #[must_use]
+    pub fn is_listed(&self, item: u32) -> bool {
+        self.listed.is_listed(item)
+    }
+
+    /// What rays may meet that start in a ball and whose angle with an axis of
+    /// length 1 has at least that cosine.
+    #[must_use]
+    pub fn candidates_in_cone(
+        &self,
+        centre: &Point,
+        radius: f64,
+        axis: &Vector,
+        cosine: f64,
+    ) -> Candidates {
+        self.listed.in_cone(centre, radius, axis, cosine)
+    }
+
+    /// What rays may meet that start in a ball and go to a goal. If all leave the
+    /// surface of an item as [`SurfacePoint::leave`] has it, on the side of a unit normal,
+    /// that is `leaving`.
+    #[must_use]
+    pub fn candidates_between(
+        &self,
+        centre: &Point,
+        radius: f64,
+        goal: &Goal,
+        leaving: Option<(u32, Vector)>,
+    ) -> Candidates {
+        self.listed.between(centre, radius, goal, leaving)
+    }
+}

@@ -1,0 +1,192 @@
+//! The triangles of the leaves, so that a ray is held against those of one leaf
+//! together.
+//!
+//! The nine coordinates of n triangles are nine rows of n numbers, without gaps:
+//! in single precision where that holds all of them exactly. A row is read eight
+//! numbers wide; what is behind its end is not looked at. What eight triangles tell
+//! at once is which of them cannot be met, since rounding keeps the order of two
+//! products unless it makes them equal; the others, hardly ever two, are met one by
+//! one as `edges.rs` decides.
+
+use crate::hierarchy::{Hierarchy, LEAF};
+use crate::lanes::{Answers, Doubles, Eight, lanes_of};
+use crate::shapes::edges::{Meeting, Shear};
+use lancer_math::Point;
+use lancer_scene::Mesh;
+use std::ops::Range;
+
+#[derive(Debug)]
+pub(super) struct Leaves {
+    rows: Rows,
+    /// The numbers of the triangles.
+    order: Vec<u32>,
+}
+
+#[derive(Debug)]
+enum Rows {
+    Single(Vec<f32>),
+    Double(Vec<f64>),
+}
+
+/// Coordinates of a triangle.
+const ROWS: usize = 9;
+
+impl Leaves {
+    pub(super) fn new(mesh: &Mesh, hierarchy: &Hierarchy, order: Vec<u32>) -> Self {
+        let corner =
+            |place: usize, row: usize| mesh.corners(order[place] as usize)[row / 3][row % 3];
+        let is_single = |x: f64| f64::from(x as f32).to_bits() == x.to_bits();
+        let all_single = (0..order.len()).all(|place| {
+            mesh.corners(order[place] as usize).iter().flat_map(|p| p.iter()).all(|&x| is_single(x))
+        });
+        let length = ROWS * order.len() + LEAF - 1;
+        let rows = if all_single {
+            let mut rows = vec![0.0; length];
+            for places in hierarchy.leaves() {
+                fill(&mut rows, places, |place, row| corner(place, row) as f32);
+            }
+            Rows::Single(rows)
+        } else {
+            let mut rows = vec![0.0; length];
+            for places in hierarchy.leaves() {
+                fill(&mut rows, places, corner);
+            }
+            Rows::Double(rows)
+        };
+        Self { rows, order }
+    }
+
+    pub(super) fn bytes(&self) -> usize {
+        let rows = match &self.rows {
+            Rows::Single(rows) => size_of_val(&rows[..]),
+            Rows::Double(rows) => size_of_val(&rows[..]),
+        };
+        rows + size_of_val(&self.order[..])
+    }
+
+    /// The ray made ready to be held against the triangles of a leaf.
+    #[inline(always)]
+    pub(super) fn filter<E: Eight>(&self, lanes: E, shear: &Shear) -> Filter<E> {
+        let [x, y, z] = shear.axes();
+        Filter {
+            lanes,
+            axes: [x, y, z],
+            origin: [x, y, z].map(
+                #[inline(always)]
+                |axis| lanes.double(shear.origin()[axis]),
+            ),
+            slopes: shear.slopes().map(
+                #[inline(always)]
+                |slope| lanes.double(slope),
+            ),
+        }
+    }
+
+    /// Calls `met` with the number of each triangle there that the ray goes through.
+    #[inline(always)]
+    pub(super) fn each<E: Eight>(
+        &self,
+        filter: &Filter<E>,
+        shear: &Shear,
+        places: Range<usize>,
+        mut met: impl FnMut(u32, Meeting),
+    ) {
+        let bits = match &self.rows {
+            Rows::Single(rows) => filter.candidates(
+                &places,
+                #[inline(always)]
+                |at| {
+                    rows.get(at..)
+                        .and_then(<[f32]>::first_chunk)
+                        .map_or(filter.origin[0], |row| filter.lanes.widened(row))
+                },
+            ),
+            Rows::Double(rows) => filter.candidates(
+                &places,
+                #[inline(always)]
+                |at| {
+                    rows.get(at..)
+                        .and_then(<[f64]>::first_chunk)
+                        .map_or(filter.origin[0], |row| filter.lanes.doubles(row))
+                },
+            ),
+        };
+        for lane in lanes_of(bits) {
+            let corners = self.corners(&places, lane);
+            if let Some(meeting) = shear.meet(&corners) {
+                met(self.order[places.start + lane], meeting);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn corners(&self, places: &Range<usize>, lane: usize) -> [Point; 3] {
+        let (first, count) = (ROWS * places.start + lane, places.len());
+        [0, 3, 6].map(
+            #[inline(always)]
+            |corner| {
+                Point::from([0, 1, 2].map(
+                    #[inline(always)]
+                    |axis| self.rows.number(first + (corner + axis) * count),
+                ))
+            },
+        )
+    }
+}
+
+impl Rows {
+    #[inline(always)]
+    fn number(&self, at: usize) -> f64 {
+        match self {
+            Self::Single(rows) => f64::from(rows[at]),
+            Self::Double(rows) => rows[at],
+        }
+    }
+}
+
+/// The two products whose order says on which side of the line from p to q the ray
+/// goes by.
+#[inline(always)]
+fn products<D: Doubles>(p: [D; 2], q: [D; 2]) -> [D; 2] {
+    [p[0] * q[1], p[1] * q[0]]
+}
+
+fn fill<T>(rows: &mut [T], places: Range<usize>, coordinate: impl Fn(usize, usize) -> T) {
+    let (first, count) = (ROWS * places.start, places.len());
+    for (lane, place) in places.enumerate() {
+        for row in 0..ROWS {
+            rows[first + row * count + lane] = coordinate(place, row);
+        }
+    }
+}
+
+/// A ray made ready for eight triangles.
+pub(super) struct Filter<E: Eight> {
+    lanes: E,
+    axes: [usize; 3],
+    origin: [E::Doubles; 3],
+    slopes: [E::Doubles; 2],
+}
+
+impl<E: Eight> Filter<E> {
+    /// Those that the ray may go through.
+    #[inline(always)]
+    fn candidates(&self, places: &Range<usize>, row: impl Fn(usize) -> E::Doubles) -> u32 {
+        let (first, count) = (ROWS * places.start, places.len());
+        // As `Shear` sees them.
+        let [a, b, c] = [0, 3, 6].map(
+            #[inline(always)]
+            |corner| {
+                let [x, y, z] = [0, 1, 2].map(
+                    #[inline(always)]
+                    |k| row(first + (corner + self.axes[k]) * count) - self.origin[k],
+                );
+                [x - self.slopes[0] * z, y - self.slopes[1] * z]
+            },
+        );
+        let [i, j, k] = [products(b, c), products(c, a), products(a, b)];
+        let left = i[0].ge(i[1]) & j[0].ge(j[1]) & k[0].ge(k[1]);
+        let right = i[0].le(i[1]) & j[0].le(j[1]) & k[0].le(k[1]);
+        (left | right).bits() & ((1 << count) - 1)
+    }
+}
