@@ -2,8 +2,10 @@
 //! independent transcription of the original's engines.
 #![forbid(unsafe_code)]
 
+pub mod generated;
 pub mod golden;
 pub mod html;
 pub mod paths;
 pub mod plain;
 pub mod random;
+pub mod room;

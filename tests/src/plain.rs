@@ -62,6 +62,26 @@ fn unit(v: Vector) -> Vector {
     v / (v.x * v.x + v.y * v.y + v.z * v.z).sqrt()
 }
 
+/// The product as the product's engines define it: fused, from the first
+/// coordinate to the last.
+fn fused(a: Vector, b: Vector) -> f64 {
+    a.z.mul_add(b.z, a.y.mul_add(b.y, a.x * b.x))
+}
+
+/// `from` and `steps` times `direction`, fused.
+fn after(from: Vector, steps: f64, direction: Vector) -> Vector {
+    Vector::new(
+        direction.x.mul_add(steps, from.x),
+        direction.y.mul_add(steps, from.y),
+        direction.z.mul_add(steps, from.z),
+    )
+}
+
+/// `v` times the inverse of its length.
+fn inverse_unit(v: Vector) -> Vector {
+    v * (1.0 / fused(v, v).sqrt())
+}
+
 fn rgb(colour: Colour) -> [f32; 3] {
     colour.codes().map(f32::from)
 }
@@ -82,13 +102,18 @@ pub fn render(scene: &Scene, engine: Plain) -> Vec<[f32; 3]> {
     let mut pixels = Vec::new();
     for y in 0..rows {
         for x in 0..columns {
-            let lat = (px_height / 2.0 - f64::from(y)) * height / px_height;
-            let lon = (f64::from(x) - (px_width / 2.0).floor()) * width / px_width;
-            let through = match engine {
-                Plain::Original => target + n1 * lon + n2 * lat,
-                _ => target + n2 * lat + n1 * lon,
+            let direction = match engine {
+                Plain::Original => {
+                    let lat = (px_height / 2.0 - f64::from(y)) * height / px_height;
+                    let lon = (f64::from(x) - (px_width / 2.0).floor()) * width / px_width;
+                    unit(target + n1 * lon + n2 * lat - origin)
+                }
+                _ => {
+                    let lat = (px_height / 2.0 - f64::from(y)) * (height / px_height);
+                    let lon = (f64::from(x) - (px_width / 2.0).floor()) * (width / px_width);
+                    inverse_unit(after(after(target - origin, lat, n2), lon, n1))
+                }
             };
-            let direction = unit(through - origin);
             pixels.push(match engine {
                 Plain::Direct => world.direct(origin, direction),
                 _ => world.trace(origin, direction, 1.0, 0),
@@ -132,6 +157,13 @@ impl World {
     }
 
     fn nearest(&self, origin: Point, direction: Vector) -> Option<Hit> {
+        match self.engine {
+            Plain::Original => self.nearest_as_original(origin, direction),
+            _ => self.nearest_as_defined(origin, direction),
+        }
+    }
+
+    fn nearest_as_original(&self, origin: Point, direction: Vector) -> Option<Hit> {
         let mut best: Option<Hit> = None;
         for ball in &self.balls {
             let pc = ball.centre - origin;
@@ -151,10 +183,7 @@ impl World {
                     squared_distance: t * t,
                     point,
                     normal,
-                    second: match self.engine {
-                        Plain::Original => second_by_arcs(normal),
-                        _ => second_on_ball(normal),
-                    },
+                    second: second_by_arcs(normal),
                     surface: ball.surface,
                 });
             }
@@ -172,7 +201,50 @@ impl World {
                     squared_distance: t * t,
                     point,
                     normal: flat.normal,
-                    second: second_on_flat(point - flat.origin, flat.normal),
+                    second: second_on_flat(point - flat.origin, flat.normal, Vector::dot),
+                    surface: flat.surface,
+                });
+            }
+        }
+        best
+    }
+
+    fn nearest_as_defined(&self, origin: Point, direction: Vector) -> Option<Hit> {
+        let mut best: Option<Hit> = None;
+        let mut nearest = f64::INFINITY;
+        for ball in &self.balls {
+            let pc = ball.centre - origin;
+            let b = fused(pc, direction);
+            let k = b.mul_add(b, -tangent_squared(pc, ball.radius));
+            if !(b >= 0.0 && k >= 0.0) {
+                continue;
+            }
+            let t = b - k.sqrt();
+            if t * t < nearest {
+                nearest = t * t;
+                let point = Point::from(after(origin.coords, t, direction));
+                let normal = inverse_unit(point - ball.centre);
+                best = Some(Hit {
+                    squared_distance: t * t,
+                    point,
+                    normal,
+                    second: second_on_ball(normal),
+                    surface: ball.surface,
+                });
+            }
+        }
+        for flat in &self.flats {
+            let slope = fused(direction, flat.normal);
+            let below = fused(flat.origin.coords, flat.normal) - fused(origin.coords, flat.normal);
+            let t = below / slope;
+            if slope < 0.0 && t * t < nearest {
+                nearest = t * t;
+                let point = Point::from(after(origin.coords, t, direction));
+                best = Some(Hit {
+                    squared_distance: t * t,
+                    point,
+                    normal: flat.normal,
+                    second: second_on_flat(point - flat.origin, flat.normal, |a, b| fused(*a, *b)),
                     surface: flat.surface,
                 });
             }
@@ -195,45 +267,55 @@ impl World {
             }
             Light::Sun { direction, .. } => {
                 let way = unit(-direction.get());
-                (way, self.hides(point, way, f64::INFINITY))
+                (way, self.hides_sun(point, way))
             }
             Light::Lamp { point: lamp, .. } | Light::Spot { point: lamp, .. } => {
                 let way = lamp.get() - point;
-                (way, self.hides(point, way, way.norm_squared()))
+                (way, self.hides_lamp(point, way, lamp.get()))
             }
         }
     }
 
-    fn hides(&self, point: Point, way: Vector, reach: f64) -> bool {
-        for ball in &self.balls {
+    fn hides_sun(&self, point: Point, way: Vector) -> bool {
+        let by_ball = self.balls.iter().any(|ball| {
             let pc = ball.centre - point;
-            let b = pc.dot(&way);
-            let way_squared = if reach.is_finite() { reach } else { 1.0 };
-            let k = b * b - way_squared * (pc.norm_squared() - ball.radius * ball.radius);
-            if b >= 0.0 && k >= 0.0 && (b - k.sqrt()).abs() < reach {
-                return true;
-            }
-        }
-        for flat in &self.flats {
-            let slope = way.dot(&flat.normal);
-            let above = point.coords.dot(&flat.normal) - flat.origin.coords.dot(&flat.normal);
-            if slope < 0.0 && (reach.is_infinite() || above.abs() < -slope) {
-                return true;
-            }
-        }
-        false
+            let b = fused(way, pc);
+            b >= 0.0 && b.mul_add(b, -tangent_squared(pc, ball.radius)) >= 0.0
+        });
+        by_ball || self.flats.iter().any(|flat| fused(way, flat.normal) < 0.0)
+    }
+
+    /// Whether anything is met on the way, in units of which, with a square of
+    /// `reach`, a ball is met at b - root(k).
+    fn hides_lamp(&self, point: Point, way: Vector, lamp: Point) -> bool {
+        let reach = fused(way, way);
+        let by_ball = self.balls.iter().any(|ball| {
+            let pc = ball.centre - point;
+            let b = fused(way, pc);
+            let tangent = tangent_squared(pc, ball.radius);
+            let k = b.mul_add(b, -(reach * tangent));
+            let inside = lamp - ball.centre;
+            let before = b < reach || fused(inside, inside) < ball.radius * ball.radius;
+            b >= 0.0 && k >= 0.0 && before && b.mul_add(2.0, reach) > -tangent
+        });
+        by_ball
+            || self.flats.iter().any(|flat| {
+                let offset = fused(flat.origin.coords, flat.normal);
+                (fused(point.coords, flat.normal) - offset).abs() < -fused(way, flat.normal)
+            })
     }
 
     fn lit(&self, hit: &Hit) -> [f32; 3] {
         let mut sum = 0.0_f64;
         for light in &self.lights {
             let (way, hidden) = self.look_at(light, hit.point);
-            let along = way.dot(&hit.normal);
+            let along = fused(way, hit.normal);
             if self.engine == Plain::Original && !hidden {
                 let cosine = unit(way).dot(&hit.normal);
                 sum += if cosine >= 0.0 { light.brightness().get() * cosine } else { 0.0 };
             } else if along >= 0.0 && !hidden {
-                sum += light.brightness().get() * (along / length_squared(light, way).sqrt());
+                let cosine = along / length_squared(light, way).sqrt();
+                sum = light.brightness().get().mul_add(cosine, sum);
             }
         }
         let surface = &self.surfaces[hit.surface];
@@ -248,7 +330,10 @@ impl World {
         let mut sum = 0.0_f64;
         for light in &self.lights {
             let (way, hidden) = self.look_at(light, origin);
-            let along = way.dot(&direction);
+            let along = match self.engine {
+                Plain::Original => way.dot(&direction),
+                _ => fused(way, direction),
+            };
             if along <= 0.0 || along.is_nan() || hidden {
                 continue;
             }
@@ -269,7 +354,8 @@ impl World {
                 continue;
             }
             let c_squared = along * along / (length_squared(light, way));
-            sum += light.brightness().get() * elementary::exp((c_squared - 1.0) * 100.0);
+            let glow = elementary::exp((c_squared - 1.0) * 100.0);
+            sum = light.brightness().get().mul_add(glow, sum);
         }
         255.0 * sum as f32
     }
@@ -282,7 +368,10 @@ impl World {
         if gloss == 0.0 || f64::from(coeff) < 0.01 || counter > 3 {
             return own;
         }
-        let reflected = direction - hit.normal * (2.0 * direction.dot(&hit.normal));
+        let reflected = match self.engine {
+            Plain::Original => direction - hit.normal * (2.0 * direction.dot(&hit.normal)),
+            _ => after(direction, fused(direction, hit.normal) * -2.0, hit.normal),
+        };
         let other = self.trace(hit.point, reflected, coeff * gloss, counter + 1);
         [0, 1, 2].map(|i| other[i] * gloss + own[i] * (1.0 - gloss))
     }
@@ -297,10 +386,16 @@ fn two_to(e: i32) -> f64 {
     f64::from_bits(((e + 1023) as u64) << 52)
 }
 
+/// The square of the length of the tangents to a ball whose centre is that far.
+fn tangent_squared(to_centre: Vector, radius: f64) -> f64 {
+    let v = to_centre;
+    v.z.mul_add(v.z, v.y.mul_add(v.y, v.x.mul_add(v.x, -(radius * radius))))
+}
+
 fn length_squared(light: &Light, way: Vector) -> f64 {
     match light {
         Light::Sun { .. } => 1.0,
-        _ => way.norm_squared(),
+        _ => fused(way, way),
     }
 }
 
@@ -320,7 +415,7 @@ fn second_on_ball(p: Vector) -> bool {
     if s < 0.0 {
         lat += 1;
     }
-    let c = unit(p - Vector::new(0.0, 0.0, 1.0) * s).x;
+    let c = p.x / p.y.mul_add(p.y, p.x * p.x).sqrt();
     let mut lon = 0;
     for k in 1..=6_u8 {
         lon += i32::from(c <= cosine_of_half(k));
@@ -345,7 +440,7 @@ fn cosine_of_half(k: u8) -> f64 {
     ][usize::from(k) - 1]
 }
 
-fn second_on_flat(offset: Vector, n: Vector) -> bool {
+fn second_on_flat(offset: Vector, n: Vector, dot: impl Fn(&Vector, &Vector) -> f64) -> bool {
     let x = Vector::new(1.0, 0.0, 0.0);
     let y = Vector::new(0.0, 1.0, 0.0);
     let v1 = unit(if n == x || n == -x { n.cross(&y) } else { n.cross(&x) });
@@ -355,5 +450,5 @@ fn second_on_flat(offset: Vector, n: Vector) -> bool {
         let whole = if i.abs() < 2_147_483_648.0 { i.abs() as i64 } else { -2_147_483_648 };
         whole + i64::from(i < 0.0)
     };
-    (cell(v1.dot(&offset)) + cell(v2.dot(&offset))) % 2 != 0
+    (cell(dot(&v1, &offset)) + cell(dot(&v2, &offset))) % 2 != 0
 }

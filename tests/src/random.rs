@@ -63,6 +63,38 @@ pub fn scene(seed: u64, pixels: [u32; 2]) -> Scene {
     builder.build().expect("all values are in range")
 }
 
+/// Many spheres of all sizes on and over a floor between walls, all `size` times
+/// as large.
+///
+/// # Panics
+/// Never: the values are in range.
+#[must_use]
+pub fn crowd(seed: u64, pixels: [u32; 2], spheres: usize, size: f64) -> Scene {
+    let mut rng = Rng::with_seed(seed);
+    let rng = &mut rng;
+    let scaled = |p: [f64; 3]| p.map(|c| c * size);
+    let (eye, target) = (scaled([0.3, -9.0, 2.0]), scaled([0.0, -8.0, 1.9]));
+    let mut builder = Scene::builder()
+        .camera(Camera::new(eye, target, 1.2 * size, pixels))
+        .light(Light::sun([0.2, 0.3, -1.0], 0.3))
+        .light(Light::lamp(scaled([2.0, -1.0, 5.0]), 0.8))
+        .light(Light::lamp(scaled([-4.0, -6.0, 3.0]), 0.6));
+    for _ in 0..spheres {
+        let radius = 0.5 * rng.f64() * rng.f64() * rng.f64() + 0.01;
+        let centre = scaled(point(rng, 5.0).map(f64::abs));
+        let centre = [centre[0] - 2.5 * size, centre[1] - 2.5 * size, centre[2]];
+        builder = builder.shape(Shape::sphere(centre, radius * size, surface(rng)));
+    }
+    for (origin, normal) in [
+        ([0.0, 0.0, 0.0], [0.0, 0.0, 1.0]),
+        ([0.0, 6.0, 0.0], [0.1, -1.0, 0.0]),
+        ([-7.0, 0.0, 0.0], [1.0, 0.0, 0.1]),
+    ] {
+        builder = builder.shape(Shape::plane(scaled(origin), normal, surface(rng)));
+    }
+    builder.build().expect("all values are in range")
+}
+
 fn sphere(rng: &mut Rng, centre: [f64; 3]) -> Result<Shape, InvalidField> {
     Shape::sphere(centre, 0.1 + 2.0 * rng.f64(), surface(rng))
 }

@@ -1,6 +1,7 @@
 //! `classic` and `direct` compute what the original computes.
 
-use lancer_integrator::{Classic, Direct, Engine, RenderSettings, Rendered, render};
+use lancer_integrator::{Classic, Culling, Direct, Engine, KernelSettings, RenderSettings};
+use lancer_integrator::{Rendered, Width, render};
 use lancer_output::{Bits, Format, compare, decode, encode};
 use lancer_scene::{Geometry, Light, PixelCount, Scene};
 use lancer_tests::golden;
@@ -75,6 +76,63 @@ fn the_shortcuts_change_no_bit_of_random_scenes() {
             let difference = first_difference(film.pixels(), &expected);
             assert_eq!(difference, None, "seed {seed}, {}\n{scene}", engine.name());
         }
+    }
+}
+
+/// Everything that may be chosen of how rays are followed, with a name.
+fn ways_to_follow() -> Vec<(String, KernelSettings)> {
+    let mut ways = Vec::new();
+    for lanes in Width::available() {
+        let name = |culling: &str| format!("{}, {culling}", lanes.name());
+        let settings = |culling| KernelSettings { lanes, culling };
+        ways.push((name("all culling"), settings(Culling::ALL)));
+        ways.push((name("no culling"), settings(Culling::NONE)));
+    }
+    for (name, culling) in Culling::without_each() {
+        ways.push((format!("without {name}"), KernelSettings { culling, ..Default::default() }));
+    }
+    ways
+}
+
+/// The same film and the same counts of rays, whatever the lanes and with each
+/// shortcut off.
+fn assert_all_ways_agree(scene: &Scene, engine: &dyn Engine, plain: Plain, name: &str) {
+    let expected = plain::render(scene, plain);
+    let mut counts = None;
+    for (way, kernel) in ways_to_follow() {
+        let settings = RenderSettings { kernel, ..RenderSettings::default() };
+        let Rendered { film, counts: found, .. } = rendered(scene, engine, &settings);
+        let difference = first_difference(film.pixels(), &expected);
+        assert_eq!(difference, None, "{name}, {}, {way}", engine.name());
+        assert_eq!(*counts.get_or_insert(found), found, "{name}, {}, {way}", engine.name());
+    }
+}
+
+#[test]
+fn lanes_and_culling_change_no_bit_and_no_count() {
+    let readme = scene("readme.xml", [200, 150]);
+    assert_all_ways_agree(&readme, &Classic, Plain::Classic, "readme");
+    assert_all_ways_agree(&readme, &Direct, Plain::Direct, "readme");
+    let corridor = scene("mirror_corridor.xml", [67, 45]);
+    assert_all_ways_agree(&corridor, &Classic, Plain::Classic, "corridor");
+    for seed in 0..250 {
+        let scene = random::scene(seed, [24, 18]);
+        assert_all_ways_agree(&scene, &Classic, Plain::Classic, &format!("seed {seed}"));
+    }
+    for seed in 250..300 {
+        let scene = random::scene(seed, [24, 18]);
+        assert_all_ways_agree(&scene, &Direct, Plain::Direct, &format!("seed {seed}"));
+    }
+}
+
+/// So many small spheres that tiles meet most of them nowhere, and bundles of
+/// mirrored rays are small and go everywhere; as large or as small as numbers
+/// allow, too.
+#[test]
+fn many_spheres_are_culled_without_a_trace() {
+    for (seed, size) in [(1, 1.0), (2, 1e60), (3, 1e-60), (4, 1.0)] {
+        let scene = random::crowd(seed, [40, 30], 150, size);
+        assert_all_ways_agree(&scene, &Classic, Plain::Classic, &format!("crowd {seed}"));
     }
 }
 

@@ -69,7 +69,7 @@ fn the_scenes_that_people_read() {
 
 #[test]
 fn random_scenes() {
-    for seed in 0..60 {
+    for seed in 0..24 {
         check(&format!("seed {seed}"), &random::scene(seed, [19, 17]), &all_widths());
     }
 }
@@ -81,7 +81,7 @@ fn nothing_that_is_left_out_matters() {
         .chain([Culling::NONE])
         .map(|culling| KernelSettings { culling, ..KernelSettings::default() })
         .collect();
-    for seed in 150..170 {
+    for seed in 150..158 {
         check(&format!("seed {seed}"), &random::scene(seed, [19, 17]), &settings);
     }
 }

@@ -1,11 +1,11 @@
 //! Chores of the repository: `cargo xtask --help`.
 #![forbid(unsafe_code)]
 
+mod bench;
 mod docs;
 mod gallery;
 mod goldens;
 mod tidy;
-mod time;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -33,16 +33,8 @@ enum Command {
     },
     /// Check what no compiler checks: dependency arrows, lints, file sizes, the README's commands
     Tidy,
-    /// Time the engine on the README's scene and compare it with a plain transcription (build with
-    /// --release)
-    Time {
-        /// How often to render
-        #[arg(long, default_value_t = 7)]
-        runs: usize,
-        /// How many threads to use
-        #[arg(long, default_value_t = 2)]
-        threads: usize,
-    },
+    /// Measure how fast this is (build with --release), or count instructions
+    Bench(bench::BenchArgs),
 }
 
 /// Why a chore was not done.
@@ -61,7 +53,7 @@ fn main() -> ExitCode {
             docs::format_reference(check).and_then(|()| gallery::scenes_page(check))
         }
         Command::Tidy => tidy::run(),
-        Command::Time { runs, threads } => time::run(runs, threads),
+        Command::Bench(args) => bench::run(&args),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

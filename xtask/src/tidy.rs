@@ -151,7 +151,7 @@ const LEFTOVERS: &[&str] = &["todo!(", "dbg!(", "unimplemented!(", "FIXME", "#[i
 
 fn sources(problems: &mut Vec<String>) -> Result<(), Failure> {
     let mut files = Vec::new();
-    for folder in ["crates", "tests", "xtask"] {
+    for folder in ["benches", "crates", "tests", "xtask"] {
         collect(&paths::top().join(folder), &mut files)?;
     }
     // This file names them.

@@ -1,5 +1,5 @@
-use crate::classic::lighting::Lighting;
-use crate::{Engine, PinholeCamera, RayCounts, Rgb, Tracer, World};
+use crate::classic::engine::OriginalTracer;
+use crate::{Engine, Tracer};
 use lancer_kernel::KernelSettings;
 use lancer_scene::Scene;
 
@@ -25,29 +25,7 @@ impl Engine for Direct {
         crate::classic::refusals(scene)
     }
 
-    fn prepare<'s>(&'s self, scene: &'s Scene, _kernel: &KernelSettings) -> Box<dyn Tracer + 's> {
-        let world = World::new(scene);
-        Box::new(DirectTracer {
-            camera: PinholeCamera::new(&scene.camera),
-            lighting: Lighting::new(scene, &world),
-            world,
-        })
-    }
-}
-
-struct DirectTracer {
-    camera: PinholeCamera,
-    world: World,
-    lighting: Lighting,
-}
-
-impl Tracer for DirectTracer {
-    fn pixel(&self, x: u32, y: u32, counts: &mut RayCounts) -> Rgb {
-        let ray = self.camera.ray(x, y);
-        counts.primary += 1;
-        let Some(hit) = self.world.nearest(&ray) else { return [0.0; 3] };
-        let surface = self.world.expand(&ray, hit);
-        let light = self.lighting.gather(&self.world, &surface, true, None, counts);
-        surface.colour.map(|c| c * light.lit)
+    fn prepare<'s>(&'s self, scene: &'s Scene, kernel: &KernelSettings) -> Box<dyn Tracer + 's> {
+        Box::new(OriginalTracer::new(scene, kernel, false))
     }
 }

@@ -115,12 +115,17 @@ impl Listed {
                 best.consider(ahead / slope, lanes.splat(f64::from(*item)), is_ahead);
             }
         }
-        for k in bits_of(among.balls & all.balls) {
+        let asked = among.balls & all.balls;
+        if asked == 0 {
+            return best;
+        }
+        let tame = rays.tame();
+        for k in bits_of(asked) {
             let (item, ball) = &self.balls[k];
             let balls = Balls::splat(lanes, ball);
-            let may = balls.may_meet(rays);
+            let may = balls.may_meet(rays, &tame);
             if may.any() {
-                let t = balls.crossings(rays).ahead(zero);
+                let t = balls.crossings(rays, &tame).ahead(zero);
                 best.consider(t, lanes.splat(f64::from(*item)), may & t.gt(zero));
             }
         }
@@ -148,11 +153,16 @@ impl Listed {
                 met = met | (t.gt(zero) & t.lt(t_max));
             }
         }
-        for k in bits_of(among.balls & of.balls) {
+        let asked = among.balls & of.balls;
+        if asked == 0 {
+            return met;
+        }
+        let tame = rays.tame();
+        for k in bits_of(asked) {
             let balls = Balls::splat(lanes, &self.balls[k].1);
-            let may = balls.may_meet(rays);
+            let may = balls.may_meet(rays, &tame);
             if may.any() {
-                let t = balls.crossings(rays).ahead(zero);
+                let t = balls.crossings(rays, &tame).ahead(zero);
                 met = met | (may & t.gt(zero) & t.lt(t_max));
             }
         }
@@ -187,12 +197,19 @@ impl Listed {
             || self.balls.binary_search_by_key(&item, |(item, _)| *item).is_ok()
     }
 
-    /// What rays may meet that start at a point and whose angle with an axis of
-    /// length 1 is at most that of the cosine.
+    /// What rays may meet that start in a ball and whose angle with an axis of length 1
+    /// has at least that cosine.
     ///
-    /// A ball is left out if it is beyond the tangent plane of the cone that is nearest to
-    /// it, a plane if all rays go away from it.
-    pub(crate) fn in_cone(&self, apex: &Point, axis: &Vector, cosine: f64) -> Candidates {
+    /// They are all within the ball's radius of the cone at its centre. A ball is
+    /// left out if it is so far beyond the tangent plane of the cone that is nearest to
+    /// it, a plane if all start on one side of it and go away from it.
+    pub(crate) fn in_cone(
+        &self,
+        centre: &Point,
+        radius: f64,
+        axis: &Vector,
+        cosine: f64,
+    ) -> Candidates {
         let mut among = self.all();
         if !(cosine > 0.0 && cosine <= 1.0) {
             return among;
@@ -201,19 +218,19 @@ impl Listed {
         let cosine = cosine * (1.0 - SLACK);
         let sine = (1.0 - cosine * cosine).sqrt();
         for (k, (_, ball)) in self.balls.iter().enumerate() {
-            let v = ball.centre - apex;
+            let v = ball.centre - centre;
             let along = v.dot(axis);
             let across = (v - axis * along).norm();
             let beyond = across * cosine - along * sine;
-            let slack = SLACK * (v.norm() + apex.coords.norm() + ball.centre.coords.norm());
-            if beyond > ball.radius * (1.0 + SLACK) + slack {
+            let slack = 1e-9 * (v.norm() + centre.coords.norm() + ball.centre.coords.norm());
+            if beyond > (ball.radius + radius) * (1.0 + SLACK) + slack {
                 among.balls &= !(1 << k);
             }
         }
         for (k, (_, plane)) in self.planes.iter().enumerate() {
             let normal = plane.normal / plane.normal.norm();
-            let height = normal.dot(&(apex - plane.origin));
-            let slack = SLACK * (apex.coords.norm() + plane.origin.coords.norm());
+            let height = normal.dot(&(centre - plane.origin));
+            let slack = SLACK * (centre.coords.norm() + plane.origin.coords.norm()) + radius;
             let toward = if height > slack {
                 -normal.dot(axis)
             } else if height < -slack {

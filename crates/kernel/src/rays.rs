@@ -2,34 +2,44 @@ use crate::lanes::{Lanes, MOST, Mask, Real, Vectors, larger, smaller};
 use crate::near::ordinary;
 use lancer_math::{Ray, Vector};
 
-/// A ray for each lane, with what every shape asks of them computed once.
+/// A ray for each lane.
 #[derive(Debug, Clone, Copy)]
 pub struct Rays<L: Lanes> {
     /// Where they start.
     pub origin: Vectors<L::Real>,
     /// Which way they go; of any length.
     pub direction: Vectors<L::Real>,
-    /// The directions, times a power of two where their squares would be out of
-    /// range, and that power.
-    pub(crate) tame: Vectors<L::Real>,
-    pub(crate) unit: L::Real,
-    /// One over their squared lengths.
-    pub(crate) inverse: L::Real,
-    pub(crate) squared: L::Real,
     pub(crate) lanes: L,
+}
+
+/// The directions of rays, times a power of two where their squares would be out of
+/// range, with what every ball asks of them computed once.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Tame<R> {
+    pub(crate) direction: Vectors<R>,
+    /// That power of two.
+    pub(crate) unit: R,
+    pub(crate) squared: R,
 }
 
 impl<L: Lanes> Rays<L> {
     /// These rays.
     #[inline(always)]
     pub fn new(lanes: L, origin: Vectors<L::Real>, direction: Vectors<L::Real>) -> Self {
-        let one = lanes.splat(1.0);
-        let largest = direction.amax();
+        Self { origin, direction, lanes }
+    }
+
+    #[inline(always)]
+    pub(crate) fn tame(&self) -> Tame<L::Real> {
+        let lanes = self.lanes;
+        let largest = self.direction.amax();
         let is_tame = largest.ge(lanes.splat(1e-100)) & largest.le(lanes.splat(1e100));
-        let (tame, unit) =
-            if (!is_tame).any() { tamed(lanes, &direction) } else { (direction, one) };
-        let squared = tame.norm_squared();
-        Self { origin, direction, tame, unit, inverse: one / squared, squared, lanes }
+        let (direction, unit) = if (!is_tame).any() {
+            tamed(lanes, &self.direction)
+        } else {
+            (self.direction, lanes.splat(1.0))
+        };
+        Tame { direction, unit, squared: direction.norm_squared() }
     }
 
     /// The same ray in each lane.

@@ -1,5 +1,6 @@
-use super::lanes::{Vectors, each};
 use super::naive_unit;
+use super::vectors::Vectors;
+use lancer_kernel::lanes::{Lanes, One};
 use lancer_math::{Point, Ray, Vector};
 use lancer_scene::Camera;
 
@@ -11,18 +12,18 @@ use lancer_scene::Camera;
 #[derive(Debug, Clone)]
 pub struct PinholeCamera {
     origin: Point,
-    target: Point,
+    /// To the target, on the image plane.
+    ahead: Vector,
     /// Horizontal, to the right.
     right: Vector,
     /// Upwards in the picture.
     up: Vector,
-    /// The size of the image plane in scene lengths.
-    plane_width: f64,
-    plane_height: f64,
-    px_width: f64,
-    px_height: f64,
-    /// The column whose rays go straight ahead.
+    /// The sides of a pixel on the image plane, in scene lengths.
+    column_width: f64,
+    row_height: f64,
+    /// The column and the row whose rays go straight ahead.
     middle_column: f64,
+    middle_row: f64,
 }
 
 /// The horizontal direction to the right of `ahead`; NaN where that is
@@ -40,47 +41,39 @@ impl PinholeCamera {
         let right = horizontal(ahead);
         let (px_width, px_height) = (camera.px_width.get(), camera.px_height.get());
         let plane_width = camera.plane_width();
+        let plane_height = f64::from(px_height) * plane_width / f64::from(px_width);
         Self {
             origin,
-            target,
+            ahead: target - origin,
             right,
             up: right.cross(&ahead),
-            plane_width,
-            plane_height: f64::from(px_height) * plane_width / f64::from(px_width),
-            px_width: f64::from(px_width),
-            px_height: f64::from(px_height),
+            column_width: plane_width / f64::from(px_width),
+            row_height: plane_height / f64::from(px_height),
             middle_column: f64::from(px_width / 2),
+            middle_row: f64::from(px_height) / 2.0,
         }
     }
 
     /// The ray of the pixel at column `x` and row `y`; row 0 is at the top.
     #[must_use]
     pub fn ray(&self, x: u32, y: u32) -> Ray {
-        let latitude = self.latitude(y);
-        let longitude = (f64::from(x) - self.middle_column) * self.plane_width / self.px_width;
-        let through = self.target + self.up * latitude + self.right * longitude;
-        Ray::new(self.origin, naive_unit(through - self.origin))
+        let direction = self.directions(One, f64::from(x), y);
+        Ray::new(self.origin, direction.into())
     }
 
-    /// The directions of the rays of as many pixels as there are lanes, from
-    /// column `x` on; those of columns that the picture has not mean nothing.
+    /// The directions of the rays of the pixels at those columns of row `y`.
     #[inline(always)]
-    pub(super) fn directions(&self, x: u32, y: u32) -> Vectors {
-        let latitude = self.latitude(y);
-        let column = each(|k| f64::from(x) + k as f64);
-        let longitude = (column - self.middle_column) * self.plane_width / self.px_width;
-        let middle = self.target + self.up * latitude;
-        let right = &self.right;
-        let through = Vectors {
-            x: longitude * right.x + middle.x,
-            y: longitude * right.y + middle.y,
-            z: longitude * right.z + middle.z,
-        };
-        through.minus(&self.origin).naive_unit()
-    }
-
-    fn latitude(&self, y: u32) -> f64 {
-        (self.px_height / 2.0 - f64::from(y)) * self.plane_height / self.px_height
+    pub(super) fn directions<L: Lanes>(
+        &self,
+        lanes: L,
+        columns: L::Real,
+        y: u32,
+    ) -> Vectors<L::Real> {
+        let latitude = (self.middle_row - f64::from(y)) * self.row_height;
+        let middle: Vector = Vectors::from(self.ahead).after(latitude, &self.up.into()).into();
+        let longitude = (columns - self.middle_column) * self.column_width;
+        let right = Vectors::splat(lanes, &self.right);
+        Vectors::splat(lanes, &middle).after(longitude, &right).unit(lanes)
     }
 
     /// Where all rays start.

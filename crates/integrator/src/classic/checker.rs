@@ -1,6 +1,8 @@
 //! Which of its two colours a checker shows.
 
 use super::naive_unit;
+use super::vectors::Vectors;
+use lancer_kernel::lanes::{Lanes, Mask, Real};
 use lancer_math::Vector;
 
 /// The smallest double not below sin(k / 2), for k = 1, 2, 3: from there on
@@ -18,19 +20,25 @@ const COSINES: [f64; 6] = [
     -0.989_992_496_600_445_5,
 ];
 
-/// Whether the point of a sphere with that normal shows the second colour.
+/// Which points of a sphere, with those normals, show the second colour.
 ///
 /// The original's cells are trunc(2 |asin z|), plus 1 below the equator, and
 /// trunc(2 acos x) of the normal turned into the equator's plane; odd sums show
 /// the second colour. Comparing with sines and cosines of the cells' borders
 /// decides the same without the system's `asin` and `acos`.
-pub(super) fn on_sphere(normal: Vector) -> bool {
-    let sine = normal.z;
-    let latitude = SINES.iter().filter(|&&border| sine.abs() >= border).count();
-    let south = usize::from(sine < 0.0);
-    let on_equator = naive_unit(normal - Vector::z() * sine);
-    let longitude = COSINES.iter().filter(|&&border| on_equator.x <= border).count();
-    (latitude + south + longitude) % 2 == 1
+#[inline(always)]
+pub(super) fn on_sphere<L: Lanes>(lanes: L, normals: &Vectors<L::Real>) -> L::Mask {
+    let size = normals.z.abs();
+    let mut odd = normals.z.lt(lanes.splat(0.0)).bits();
+    for border in SINES {
+        odd ^= size.ge(lanes.splat(border)).bits();
+    }
+    let (x, y) = (normals.x, normals.y);
+    let on_equator = x / y.mul_add(y, x * x).sqrt();
+    for border in COSINES {
+        odd ^= on_equator.le(lanes.splat(border)).bits();
+    }
+    lanes.mask(odd)
 }
 
 /// The directions along which cells are counted on a plane.
@@ -44,25 +52,36 @@ pub(super) fn axes_on_plane(normal: Vector) -> [Vector; 2] {
     [first, normal.cross(&first)]
 }
 
-/// Whether the point at that offset from the plane's origin shows the second
-/// colour.
-pub(super) fn on_plane(offset: Vector, axes: &[Vector; 2]) -> bool {
-    cell_is_odd(axes[0].dot(&offset)) != cell_is_odd(axes[1].dot(&offset))
+/// Which points, at those offsets from a plane's origin, show the second colour.
+#[inline(always)]
+pub(super) fn on_plane<L: Lanes>(
+    lanes: L,
+    offsets: &Vectors<L::Real>,
+    axes: &[Vector; 2],
+) -> L::Mask {
+    let [first, second] = axes;
+    let first = odd_cells(lanes, offsets.dot(&Vectors::splat(lanes, first)));
+    let second = odd_cells(lanes, offsets.dot(&Vectors::splat(lanes, second)));
+    lanes.mask(first ^ second)
 }
 
-/// Whether trunc|i|, plus 1 where i is negative, is odd.
+/// Whether trunc|i|, plus 1 where i is negative, is odd, as bits.
 ///
 /// The original truncates to a 32-bit whole number, which on its machine gave
 /// -2^31, an even number, for all that does not fit.
-fn cell_is_odd(i: f64) -> bool {
+#[inline(always)]
+fn odd_cells<L: Lanes>(lanes: L, i: L::Real) -> u32 {
     let size = i.abs();
-    let odd = size < 2_147_483_648.0 && (size as u32) % 2 == 1;
-    odd != (i < 0.0)
+    let even_below = (size * 0.5).floor() * 2.0;
+    // Without rounding: both have the same unit.
+    let odd = (size - even_below).ge(lanes.splat(1.0)) & size.lt(lanes.splat(2_147_483_648.0));
+    odd.bits() ^ i.lt(lanes.splat(0.0)).bits()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use lancer_kernel::lanes::One;
 
     #[test]
     fn borders_are_where_the_sines_and_cosines_are() {
@@ -88,7 +107,8 @@ mod tests {
             let latitude = (2.0 * libm::asin(normal.z).abs()) as i32 + i32::from(normal.z < 0.0);
             let turned = naive_unit(Vector::new(normal.x, normal.y, 0.0));
             let longitude = (2.0 * libm::acos(turned.x)) as i32;
-            assert_eq!(on_sphere(normal), (latitude + longitude) % 2 == 1, "case {case}");
+            let second = on_sphere(One, &normal.into()).any();
+            assert_eq!(second, (latitude + longitude) % 2 == 1, "case {case}");
         }
     }
 
@@ -96,13 +116,14 @@ mod tests {
     fn cells_of_a_plane_alternate_and_do_not_overflow() {
         let axes = axes_on_plane(Vector::z());
         for (i, j) in [(0.5, 0.5), (3.2, -7.9), (-0.1, -0.1), (-2.5, 4.5)] {
-            let at = |i: f64, j: f64| on_plane(axes[0] * i + axes[1] * j, &axes);
+            let at =
+                |i: f64, j: f64| on_plane(One, &(axes[0] * i + axes[1] * j).into(), &axes).any();
             assert_ne!(at(i, j), at(i + 1.0, j), "{i} {j}");
             assert_ne!(at(i, j), at(i, j - 1.0), "{i} {j}");
             assert_eq!(at(i, j), at(i + 1.0, j + 1.0), "{i} {j}");
         }
         for far in [1e10, 1e100, f64::INFINITY, f64::NAN] {
-            assert!(!cell_is_odd(far));
+            assert_eq!(odd_cells(One, far), 0);
         }
     }
 }

@@ -1,20 +1,16 @@
-use super::eye::Eye;
-use super::lanes::LANES;
-use super::lighting::Lighting;
-use crate::{Engine, Hit, PinholeCamera, RayCounts, Rgb, Tracer, World};
+use super::lights::Lights;
+use super::tile::{Stage, Tile};
+use crate::{Engine, PinholeCamera, RayCounts, Rgb, Tracer, World};
 use lancer_film::Window;
 use lancer_kernel::KernelSettings;
-use lancer_math::{Ray, Vector};
+use lancer_kernel::lanes::{Width, dispatch};
 use lancer_scene::Scene;
 
 /// The original program's recursive engine: lit surfaces, shadows, mirrors to
 /// a depth of four, and a glow around visible lights.
 ///
 /// It computes what the original does and in its precision: geometry and sums
-/// of light in double, colours in single. Three shortcuts change no bit: a
-/// reflected ray's glow reuses what is known of the lights from the point that
-/// it leaves, planes that cannot hide a light are not asked, and a perfect
-/// mirror's own colour is not computed.
+/// of light in double, colours in single.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Classic;
 
@@ -35,98 +31,95 @@ impl Engine for Classic {
         super::refusals(scene)
     }
 
-    fn prepare<'s>(&'s self, scene: &'s Scene, _kernel: &KernelSettings) -> Box<dyn Tracer + 's> {
-        let world = World::new(scene);
-        let lighting = Lighting::new(scene, &world);
-        let eye = Eye::new(PinholeCamera::new(&scene.camera), &world, &lighting);
-        let own_colour_is_finite = lighting.is_finite();
-        Box::new(ClassicTracer { eye, world, lighting, own_colour_is_finite })
+    fn prepare<'s>(&'s self, scene: &'s Scene, kernel: &KernelSettings) -> Box<dyn Tracer + 's> {
+        Box::new(OriginalTracer::new(scene, kernel, true))
     }
 }
 
-struct ClassicTracer {
-    eye: Eye,
-    world: World,
-    lighting: Lighting,
-    own_colour_is_finite: bool,
+/// The tracer of both of the original's engines.
+pub(crate) struct OriginalTracer {
+    stage: Stage,
+    lanes: Width,
 }
 
-/// A mirror whose share of the pixel is smaller is shown matte.
-const LEAST_SHARE: f64 = 0.01;
+impl OriginalTracer {
+    /// With mirrors and glow, or without either.
+    pub(crate) fn new(scene: &Scene, kernel: &KernelSettings, is_recursive: bool) -> Self {
+        let world = World::new(scene);
+        let camera = PinholeCamera::new(&scene.camera);
+        let lights = Lights::new(scene, &world, &kernel.culling);
+        let beacons =
+            if is_recursive { lights.beacons(camera.origin(), &world) } else { Vec::new() };
+        let own_colour_is_finite = lights.is_finite();
+        let stage = Stage {
+            camera,
+            world,
+            lights,
+            beacons,
+            has_mirrors: is_recursive,
+            own_colour_is_finite,
+            culling: kernel.culling,
+        };
+        Self { stage, lanes: kernel.lanes }
+    }
+}
 
-/// How many mirrors a ray is followed through.
-const MOST_MIRRORS: u32 = 4;
+/// The side of the largest tile that travels as one.
+const SIDE: u32 = 16;
 
-impl Tracer for ClassicTracer {
+impl Tracer for OriginalTracer {
     fn pixel(&self, x: u32, y: u32, counts: &mut RayCounts) -> Rgb {
         let mut pixel = [[0.0; 3]];
-        self.neighbours(x, y, &mut pixel, counts);
+        self.tile(Window { x, y, width: 1, height: 1 }, &mut pixel, counts);
         pixel[0]
     }
 
-    fn tile(&self, tile: Window, pixels: &mut [Rgb], counts: &mut RayCounts) {
-        for (row, y) in pixels.chunks_mut(tile.width as usize).zip(tile.y..) {
-            for (neighbours, x) in row.chunks_mut(LANES).zip((tile.x..).step_by(LANES)) {
-                self.neighbours(x, y, neighbours, counts);
+    fn tile(&self, window: Window, pixels: &mut [Rgb], counts: &mut RayCounts) {
+        let stage = &self.stage;
+        if window.width <= SIDE && window.height <= SIDE {
+            return dispatch(self.lanes, Tile { stage, window, pixels, counts });
+        }
+        let mut buffer = [[0.0; 3]; (SIDE * SIDE) as usize];
+        for top in (0..window.height).step_by(SIDE as usize) {
+            for left in (0..window.width).step_by(SIDE as usize) {
+                let (width, height) =
+                    (SIDE.min(window.width - left), SIDE.min(window.height - top));
+                let part = Window { x: window.x + left, y: window.y + top, width, height };
+                let colours = &mut buffer[..part.pixels() as usize];
+                dispatch(self.lanes, Tile { stage, window: part, pixels: colours, counts });
+                for (row, y) in colours.chunks_exact(width as usize).zip(top..) {
+                    let start = (y * window.width + left) as usize;
+                    pixels[start..start + row.len()].copy_from_slice(row);
+                }
             }
         }
     }
 }
 
-impl ClassicTracer {
-    /// The colours of up to four pixels from column `x` of row `y` on.
-    fn neighbours(&self, x: u32, y: u32, pixels: &mut [Rgb], counts: &mut RayCounts) {
-        let views = self.eye.look(&self.world, x, y);
-        counts.primary += pixels.len() as u64;
-        for (k, pixel) in pixels.iter_mut().enumerate() {
-            let (ray, hit) = views.lane(&self.eye, k);
-            *pixel = self.colour(&ray, hit, views.glow[k], 1.0, 0, counts);
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lancer_scene::{Camera, Colour, Light, Shape, Surface};
+
+    #[test]
+    fn large_tiles_are_put_together_from_small_ones() {
+        let scene = Scene::builder()
+            .camera(Camera::new([0.0, -4.0, 0.0], [0.0, -3.0, 0.0], 1.0, [50, 40]))
+            .light(Light::sun([0.2, 1.0, -0.3], 1.0))
+            .shape(Shape::sphere([0.0; 3], 1.0, Surface::new(Colour::RED)))
+            .build()
+            .expect("valid");
+        let tracer = Classic.prepare(&scene, &KernelSettings::default());
+        let mut counts = RayCounts::default();
+        let window = Window { x: 3, y: 2, width: 41, height: 35 };
+        let mut pixels = vec![[0.0; 3]; 41 * 35];
+        tracer.tile(window, &mut pixels, &mut counts);
+        assert_eq!(counts.primary, 41 * 35);
+        for y in 0..35 {
+            for x in 0..41 {
+                let pixel = tracer.pixel(3 + x, 2 + y, &mut counts);
+                assert_eq!(pixels[(y * 41 + x) as usize], pixel, "{x},{y}");
+            }
         }
     }
-
-    /// The colour of a ray that meets that and along which the lights glow so
-    /// brightly; `share` is its share of the pixel, `depth` the number of
-    /// mirrors before it.
-    fn colour(
-        &self,
-        ray: &Ray,
-        hit: Option<Hit>,
-        glow: f32,
-        share: f32,
-        depth: u32,
-        counts: &mut RayCounts,
-    ) -> Rgb {
-        let glow = 255.0 * glow;
-        let Some(hit) = hit else { return [glow; 3] };
-        let surface = self.world.expand(ray, hit);
-        let gloss = surface.gloss;
-        if gloss == 0.0 || f64::from(share) < LEAST_SHARE || depth >= MOST_MIRRORS {
-            let light = self.lighting.gather(&self.world, &surface, true, None, counts);
-            return surface.colour.map(|c| c * light.lit + glow);
-        }
-
-        let mirrored = Ray::new(surface.point, reflect(ray.direction, surface.normal));
-        // What a perfect mirror adds of its own is 0 times a finite number.
-        let want_own = !(gloss == 1.0 && self.own_colour_is_finite && glow.is_finite());
-        let light = self.lighting.gather(
-            &self.world,
-            &surface,
-            want_own,
-            Some(&mirrored.direction),
-            counts,
-        );
-        counts.reflected += 1;
-        let hit = self.world.nearest(&mirrored);
-        let reflected = self.colour(&mirrored, hit, light.glow, share * gloss, depth + 1, counts);
-        if !want_own {
-            return reflected;
-        }
-        let own = surface.colour.map(|c| c * light.lit + glow);
-        std::array::from_fn(|i| reflected[i] * gloss + own[i] * (1.0 - gloss))
-    }
-}
-
-/// The direction in which a mirror with that unit normal sends a ray.
-fn reflect(direction: Vector, normal: Vector) -> Vector {
-    direction - normal * (2.0 * direction.dot(&normal))
 }

@@ -2,16 +2,17 @@
 //! its answers are the fixed point that every correction and speed-up is
 //! measured from, and that includes the answers that are wrong.
 
+mod bundle;
 pub(crate) mod camera;
 mod checker;
 pub(crate) mod engine;
-mod eye;
-mod lanes;
-pub(crate) mod lighting;
-mod occluders;
+mod lights;
 mod plane;
 mod refusals;
+mod rows;
 mod sphere;
+mod tile;
+mod vectors;
 pub(crate) mod world;
 
 pub(crate) use refusals::refusals;

@@ -1,11 +1,12 @@
 use super::checker;
-use super::eye::Nearest;
-use super::lanes::{LANES, Vectors, each, lanes_of};
 use super::naive_unit;
-use lancer_math::{Point, Ray, Vector};
-use wide::f64x4;
+use super::vectors::Vectors;
+use crate::classic::sphere::Ways;
+use lancer_kernel::lanes::{Lanes, Real};
+use lancer_math::{Point, Vector};
 
-/// A plane made ready for its light and colour.
+/// A plane made ready for rays: it is met only by those that go against its
+/// normal.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Half {
     pub(super) origin: Point,
@@ -23,93 +24,50 @@ impl Half {
         Self {
             origin,
             normal,
-            offset: origin.coords.dot(&normal),
+            offset: Vectors::from(origin.coords).dot(&normal.into()),
             axes: checker::axes_on_plane(normal),
         }
     }
 
-    /// Whether the way from `point` to a lamp, of that length and direction,
-    /// meets the plane before the lamp, without dividing.
-    #[inline]
-    pub(super) fn hides_lamp(&self, point: &Point, way: &Vector) -> bool {
-        let slope = way.dot(&self.normal);
-        (point.coords.dot(&self.normal) - self.offset).abs() < -slope
-    }
-
-    pub(super) fn facing(&self, eye: &Point) -> Facing {
-        let to_plane = self.offset - eye.coords.dot(&self.normal);
-        Facing { normal: self.normal, to_plane: f64x4::splat(to_plane) }
-    }
-
-    pub(super) fn shows_second_colour(&self, point: &Point) -> bool {
-        checker::on_plane(point - self.origin, &self.axes)
-    }
-}
-
-/// More than one, by more than three products can be rounded down.
-const ROUNDED_UP: f64 = 1.0 + 8.0 * f64::EPSILON;
-
-/// Up to four planes, made ready for intersection.
-#[derive(Debug, Clone)]
-pub(super) struct Halves {
-    /// Zero in lanes without a plane: nothing hits those.
-    normals: Vectors,
-    offsets: f64x4,
-}
-
-impl Halves {
-    pub(super) fn pack(planes: &[Half]) -> Vec<Self> {
-        planes
-            .chunks(LANES)
-            .map(|chunk| Self {
-                normals: Vectors::each(|k| {
-                    chunk.get(k).map_or_else(Vector::zeros, |plane| plane.normal)
-                }),
-                offsets: each(|k| chunk.get(k).map_or(0.0, |plane| plane.offset)),
-            })
-            .collect()
-    }
-
-    /// The distances to the intersections, as the original has them: only for
-    /// rays that go against the normal, and then even where they are behind
-    /// the ray's origin. Calls `hit` with the lane and the distance of all
-    /// those whose square is below `bound`, and perhaps of others.
-    #[inline]
-    pub(super) fn distances(&self, ray: &Ray, bound: f64, mut hit: impl FnMut(usize, f64)) {
-        let slope = self.normals.dot(&ray.direction);
-        let height = self.normals.dot(&ray.origin.coords);
-        let to_plane = self.offsets - height;
-        // Those that are near for sure or by rounding, without dividing (the
-        // smallest normal number is for products that underflow): not
-        // those whose square is at least `bound`. NaN counts as near, and the
-        // caller compares the distance itself.
-        let far =
-            (to_plane * to_plane).simd_gt(slope * slope * (bound * ROUNDED_UP) + f64::MIN_POSITIVE);
-        let bits = slope.simd_lt(f64x4::ZERO).to_bitmask() & !far.to_bitmask();
-        if bits != 0 {
-            let distance = (to_plane / slope).to_array();
-            for k in lanes_of(bits) {
-                hit(k, distance[k]);
-            }
-        }
-    }
-}
-
-/// A plane as it is seen from the eye.
-#[derive(Debug, Clone)]
-pub(super) struct Facing {
-    normal: Vector,
-    to_plane: f64x4,
-}
-
-impl Facing {
-    /// As [`Halves::distances`] of one plane and four rays.
+    /// The distances to the intersections and where there are any, as the
+    /// original has them: only for rays that go against the normal, and then even
+    /// where they are behind the ray's origin.
     #[inline(always)]
-    pub(super) fn meet(&self, directions: &Vectors, index: f64x4, nearest: &mut Nearest) {
-        let slope = directions.dot(&self.normal);
-        let hits = slope.simd_lt(f64x4::ZERO);
-        if hits.any() {
-            nearest.consider(index, self.to_plane / slope, hits);
-        }
+    pub(super) fn meet<L: Lanes>(
+        &self,
+        lanes: L,
+        origins: &Vectors<L::Real>,
+        directions: &Vectors<L::Real>,
+    ) -> (L::Mask, L::Real) {
+        let normal = Vectors::splat(lanes, &self.normal);
+        let slope = directions.dot(&normal);
+        let to_plane = lanes.splat(self.offset) - origins.dot(&normal);
+        (slope.lt(lanes.splat(0.0)), to_plane / slope)
+    }
+
+    /// Whether it is met before a lamp, without dividing.
+    #[inline(always)]
+    pub(super) fn hides_lamp<L: Lanes>(&self, lanes: L, ways: &Ways<L::Real>) -> L::Mask {
+        let normal = Vectors::splat(lanes, &self.normal);
+        let slope = ways.vectors.dot(&normal);
+        (ways.origins.dot(&normal) - self.offset).abs().lt(-slope)
+    }
+
+    /// Whether it hides a sun in that direction. The ray to a sun has the same
+    /// direction everywhere, and by the original's rule a hit may lie behind the
+    /// origin: so a plane hides a sun from everywhere or from nowhere.
+    pub(super) fn hides_sun(&self, towards: &Vector) -> bool {
+        Vectors::from(*towards).dot(&self.normal.into()) < 0.0
+    }
+
+    /// Which points show the second colour of a checker.
+    #[inline(always)]
+    pub(super) fn shows_second_colour<L: Lanes>(
+        &self,
+        lanes: L,
+        points: &Vectors<L::Real>,
+    ) -> L::Mask {
+        let offsets = points.minus(&Vectors::splat(lanes, &self.origin.coords));
+        checker::on_plane(lanes, &offsets, &self.axes)
     }
 }

@@ -1,117 +1,137 @@
-use super::eye::Nearest;
-use super::lanes::{LANES, Vectors, each, lanes_of};
-use super::naive_unit;
-use super::occluders::Ways;
-use lancer_math::{Point, Ray, Vector};
-use wide::f64x4;
+use super::vectors::Vectors;
+use lancer_kernel::lanes::{Lanes, Real};
+use lancer_math::{Point, Vector};
 
-/// Up to four spheres, made ready for intersection.
-#[derive(Debug, Clone)]
-pub(super) struct Balls {
-    centres: Vectors,
-    /// Minus infinity in lanes without a sphere: nothing hits those.
-    radii_squared: f64x4,
-}
-
-impl Balls {
-    pub(super) fn pack(spheres: &[lancer_scene::Sphere]) -> Vec<Self> {
-        spheres
-            .chunks(LANES)
-            .map(|chunk| Self {
-                centres: Vectors::each(|k| {
-                    chunk.get(k).map_or_else(Vector::zeros, |s| s.centre.get().coords)
-                }),
-                radii_squared: each(|k| {
-                    chunk.get(k).map_or(f64::NEG_INFINITY, |s| s.radius.get() * s.radius.get())
-                }),
-            })
-            .collect()
-    }
-
-    /// The distances to the nearer intersections, as the original has them:
-    /// never where the centre is behind the ray's origin, and otherwise even
-    /// where the intersection is behind it (an origin inside the sphere).
-    /// Calls `hit` with the lane and the distance of each.
-    #[inline]
-    pub(super) fn distances(&self, ray: &Ray, mut hit: impl FnMut(usize, f64)) {
-        let to_centre = self.centres.minus(&ray.origin);
-        let along = to_centre.dot(&ray.direction);
-        let under_root = self.radii_squared - (to_centre.norm_squared() - along * along);
-        // Not for NaN either.
-        let hits = along.simd_ge(f64x4::ZERO) & under_root.simd_ge(f64x4::ZERO);
-        let bits = hits.to_bitmask();
-        if bits != 0 {
-            let distances = (along - under_root.sqrt()).to_array();
-            for k in lanes_of(bits) {
-                hit(k, distances[k]);
-            }
-        }
-    }
-}
-
-/// A sphere made ready for shadows and light.
+/// A sphere made ready for rays.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ball {
-    centre: Point,
+    centre: Vector,
     radius_squared: f64,
+}
+
+/// From points towards a lamp or a sun.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ways<R> {
+    pub(super) origins: Vectors<R>,
+    /// To the lamp itself, or unit vectors towards the sun.
+    pub(super) vectors: Vectors<R>,
+    /// The squares of the distances to the lamp; 1 for a sun.
+    pub(super) lengths_squared: R,
 }
 
 impl Ball {
     pub(super) fn new(sphere: &lancer_scene::Sphere) -> Self {
         let radius = sphere.radius.get();
-        Self { centre: sphere.centre.get(), radius_squared: radius * radius }
+        Self { centre: sphere.centre.get().coords, radius_squared: radius * radius }
     }
 
-    pub(super) fn normal(&self, point: &Point) -> Vector {
-        naive_unit(point - self.centre)
-    }
-
-    pub(super) fn ahead_of(&self, eye: &Point) -> Ahead {
-        let to_centre = self.centre - eye;
-        Ahead {
-            to_centre,
-            square: f64x4::splat(to_centre.norm_squared()),
-            radius_squared: f64x4::splat(self.radius_squared),
-        }
-    }
-
-    /// Which of the ways `asked` for meet the sphere before the light, as bits;
-    /// other bits mean nothing.
-    ///
-    /// From the same quadratic as [`Balls::distances`], but without a unit
-    /// direction: the distance is along - root over the way's length.
+    /// The vectors from points to the centre, and the squares of the lengths of
+    /// the tangents.
     #[inline(always)]
-    pub(super) fn hides(&self, ways: &Ways, asked: u32) -> u32 {
-        let to_centre = self.centre - ways.origin;
-        let tangent_squared = to_centre.norm_squared() - self.radius_squared;
+    fn from<L: Lanes>(&self, lanes: L, origins: &Vectors<L::Real>) -> (Vectors<L::Real>, L::Real) {
+        let v = Vectors::splat(lanes, &self.centre).minus(origins);
+        let x = v.x.mul_add(v.x, lanes.splat(-self.radius_squared));
+        (v, v.z.mul_add(v.z, v.y.mul_add(v.y, x)))
+    }
+
+    /// The distances to the nearer intersections and where there are any, as the
+    /// original has them: never where the centre is behind the ray's origin, and
+    /// otherwise even where the intersection is behind it (an origin inside the
+    /// sphere).
+    #[inline(always)]
+    pub(super) fn meet<L: Lanes>(
+        &self,
+        lanes: L,
+        origins: &Vectors<L::Real>,
+        directions: &Vectors<L::Real>,
+    ) -> (L::Mask, L::Real) {
+        let (to_centre, tangent_squared) = self.from(lanes, origins);
+        let along = to_centre.dot(directions);
+        let under_root = along.mul_add(along, -tangent_squared);
+        let zero = lanes.splat(0.0);
+        // Not for NaN either.
+        let hits = along.ge(zero) & under_root.ge(zero);
+        (hits, along - under_root.sqrt())
+    }
+
+    /// Whether it is met before the sun.
+    #[inline(always)]
+    pub(super) fn hides_sun<L: Lanes>(&self, lanes: L, ways: &Ways<L::Real>) -> L::Mask {
+        let (to_centre, tangent_squared) = self.from(lanes, &ways.origins);
         let along = ways.vectors.dot(&to_centre);
-        let under_root = along * along - ways.lengths_squared * tangent_squared;
-        let meets = along.simd_ge(f64x4::ZERO) & under_root.simd_ge(f64x4::ZERO);
-        if meets.to_bitmask() & asked == 0 {
-            return 0;
+        let zero = lanes.splat(0.0);
+        along.ge(zero) & along.mul_add(along, -tangent_squared).ge(zero)
+    }
+
+    /// Whether it is met before a lamp, of which is known whether it is inside.
+    ///
+    /// From the same quadratic as [`meet`](Self::meet), but without a unit
+    /// direction, a root or a quotient. In units of the way, whose square is L,
+    /// the intersection is at b - root(k) with b >= 0 and k >= 0. That is below L
+    /// if b is, or if the lamp is inside; and above -L if k < (b + L)^2, where
+    /// k = b^2 - L tangent^2.
+    #[inline(always)]
+    pub(super) fn hides_lamp<L: Lanes>(
+        &self,
+        lanes: L,
+        ways: &Ways<L::Real>,
+        lamp_is_inside: bool,
+    ) -> L::Mask {
+        let (to_centre, tangent_squared) = self.from(lanes, &ways.origins);
+        let along = ways.vectors.dot(&to_centre);
+        let lengths_squared = ways.lengths_squared;
+        let zero = lanes.splat(0.0);
+        let under_root = along.mul_add(along, -(lengths_squared * tangent_squared));
+        let meets = along.ge(zero) & under_root.ge(zero);
+        let not_behind = along.mul_add(lanes.splat(2.0), lengths_squared).gt(-tangent_squared);
+        if lamp_is_inside {
+            meets & not_behind
+        } else {
+            meets & not_behind & along.lt(lengths_squared)
         }
-        let before = (along - under_root.sqrt()).abs().simd_lt(ways.reaches);
-        (meets & before).to_bitmask()
+    }
+
+    /// Whether a lamp is inside.
+    pub(super) fn holds(&self, lamp: &Vector) -> bool {
+        let v = lamp - self.centre;
+        Vectors::from(v).norm_squared() < self.radius_squared
+    }
+
+    #[inline(always)]
+    pub(super) fn normals<L: Lanes>(
+        &self,
+        lanes: L,
+        points: &Vectors<L::Real>,
+    ) -> Vectors<L::Real> {
+        points.minus(&Vectors::splat(lanes, &self.centre)).unit(lanes)
     }
 }
 
-/// A sphere as it is seen from the eye.
+/// Where spheres are, by coordinate, to look through them in lanes.
 #[derive(Debug, Clone)]
-pub(super) struct Ahead {
-    to_centre: Vector,
-    square: f64x4,
-    radius_squared: f64x4,
+pub(super) struct Places {
+    pub(super) count: usize,
+    pub(super) x: Vec<f64>,
+    pub(super) y: Vec<f64>,
+    pub(super) z: Vec<f64>,
+    pub(super) radius: Vec<f64>,
 }
 
-impl Ahead {
-    /// As [`Balls::distances`] of one sphere and four rays.
-    #[inline(always)]
-    pub(super) fn meet(&self, directions: &Vectors, index: f64x4, nearest: &mut Nearest) {
-        let along = directions.dot(&self.to_centre);
-        let under_root = self.radius_squared - (self.square - along * along);
-        let hits = along.simd_ge(f64x4::ZERO) & under_root.simd_ge(f64x4::ZERO);
-        if hits.any() {
-            nearest.consider(index, along - under_root.sqrt(), hits);
+impl Places {
+    /// As many lanes as there may be behind the last one hold spheres in which
+    /// nothing is.
+    pub(super) fn new(spheres: &[lancer_scene::Sphere]) -> Self {
+        let behind = [0.0; lancer_kernel::lanes::MOST];
+        let each = |f: fn(&Point) -> f64| {
+            spheres.iter().map(|sphere| f(&sphere.centre.get())).chain(behind).collect()
+        };
+        let nothing = behind.map(|_| f64::NEG_INFINITY);
+        Self {
+            count: spheres.len(),
+            x: each(|centre| centre.x),
+            y: each(|centre| centre.y),
+            z: each(|centre| centre.z),
+            radius: spheres.iter().map(|sphere| sphere.radius.get()).chain(nothing).collect(),
         }
     }
 }

@@ -1,8 +1,8 @@
-use super::checker;
-use super::lanes::LANES;
-use super::plane::{Half, Halves};
-use super::sphere::{Ball, Balls};
+use super::plane::Half;
+use super::sphere::{Ball, Places};
+use super::vectors::Vectors;
 use crate::Rgb;
+use lancer_kernel::lanes::{Lanes, Mask, One, Real, lanes_of};
 use lancer_math::{Point, Ray, Vector};
 use lancer_scene::{Colour, CustomShape, Geometry, Pattern, Scene, Surface};
 use std::sync::Arc;
@@ -11,13 +11,14 @@ use std::sync::Arc;
 /// planes have one side, and a hit may lie behind the ray's origin.
 #[derive(Debug, Clone)]
 pub struct World {
-    balls: Vec<Balls>,
     pub(super) spheres: Vec<Ball>,
-    halves: Vec<Halves>,
+    pub(super) places: Places,
     pub(super) planes: Vec<Half>,
     pub(super) customs: Vec<Arc<dyn CustomShape>>,
     /// Of all spheres, then all planes, then all custom shapes.
-    looks: Vec<Look>,
+    pub(super) looks: Vec<Look>,
+    /// The numbers of all of them.
+    everything: Candidates,
 }
 
 /// What a ray met.
@@ -29,21 +30,48 @@ pub struct Hit {
     pub(super) index: usize,
 }
 
-/// The nearest hit so far.
-struct Nearest {
-    squared: f64,
-    hit: Hit,
+/// Spheres and planes that some rays may meet, by their places in the world's
+/// lists, in order.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Candidates {
+    pub(super) spheres: Vec<u32>,
+    pub(super) planes: Vec<u32>,
 }
 
-impl Nearest {
-    /// Of equally near hits the first one stays; NaN is never nearer.
+/// The nearest hits so far.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Nearest<R> {
+    squared: R,
+    pub(super) distance: R,
+    /// The world's numbers for the shapes; -1 where there is no hit.
+    pub(super) index: R,
+}
+
+impl<R: Real> Nearest<R> {
     #[inline(always)]
-    fn consider(&mut self, index: usize, distance: f64) {
-        let squared = distance * distance;
-        if squared < self.squared {
-            self.squared = squared;
-            self.hit = Hit { distance, index };
+    fn none<L: Lanes<Real = R>>(lanes: L) -> Self {
+        Self {
+            squared: lanes.splat(f64::INFINITY),
+            distance: lanes.splat(0.0),
+            index: lanes.splat(-1.0),
         }
+    }
+
+    /// Takes those of the new `distances` in lanes of `mask` that are nearer; of
+    /// equally near ones the first stays, and NaN is never nearer.
+    #[inline(always)]
+    fn consider<L: Lanes<Real = R, Mask = R::Mask>>(
+        &mut self,
+        lanes: L,
+        index: usize,
+        distance: R,
+        mask: R::Mask,
+    ) {
+        let squared = distance * distance;
+        let nearer = squared.lt(self.squared) & mask;
+        self.squared = nearer.select(squared, self.squared);
+        self.distance = nearer.select(distance, self.distance);
+        self.index = nearer.select(lanes.splat(index as f64), self.index);
     }
 }
 
@@ -64,10 +92,10 @@ pub struct SurfacePoint {
 
 /// The surface of a shape, in the numbers that shading computes with.
 #[derive(Debug, Clone, Copy)]
-struct Look {
-    colour: Rgb,
-    second: Option<Rgb>,
-    gloss: f32,
+pub(super) struct Look {
+    pub(super) colour: Rgb,
+    pub(super) second: Option<Rgb>,
+    pub(super) gloss: f32,
     shape: usize,
 }
 
@@ -109,72 +137,106 @@ impl World {
                 _ => {}
             }
         }
+        let everything = Candidates {
+            spheres: (0..).take(spheres.len()).collect(),
+            planes: (0..).take(planes.len()).collect(),
+        };
         Self {
-            balls: Balls::pack(&spheres),
+            places: Places::new(&spheres),
             spheres: spheres.iter().map(Ball::new).collect(),
-            halves: Halves::pack(&planes),
             planes,
             customs,
             looks: looks.concat(),
+            everything,
         }
+    }
+
+    pub(super) const fn everything(&self) -> &Candidates {
+        &self.everything
     }
 
     /// The nearest hit, by squared distance, so that one close behind the
     /// origin hides one farther ahead.
-    #[inline]
     #[must_use]
     pub fn nearest(&self, ray: &Ray) -> Option<Hit> {
-        let mut nearest =
-            Nearest { squared: f64::INFINITY, hit: Hit { distance: 0.0, index: usize::MAX } };
-        for (i, balls) in self.balls.iter().enumerate() {
-            balls.distances(ray, |lane, distance| nearest.consider(i * LANES + lane, distance));
-        }
-        let first = self.spheres.len();
-        for (i, halves) in self.halves.iter().enumerate() {
-            halves.distances(ray, nearest.squared, |lane, distance| {
-                nearest.consider(first + i * LANES + lane, distance);
-            });
-        }
-        let hit = (nearest.hit.index != usize::MAX).then_some(nearest.hit);
-        if self.customs.is_empty() { hit } else { self.nearest_custom(ray, hit, nearest.squared) }
+        let (origin, direction) = (ray.origin.coords.into(), ray.direction.into());
+        let nearest = self.meet(One, &self.everything, &origin, &direction, 1);
+        (nearest.index >= 0.0)
+            .then_some(Hit { distance: nearest.distance, index: nearest.index as usize })
     }
 
-    /// The nearest hit, where that of spheres and planes is known.
-    #[cold]
-    pub(super) fn nearest_custom(&self, ray: &Ray, hit: Option<Hit>, squared: f64) -> Option<Hit> {
-        let none = Hit { distance: 0.0, index: usize::MAX };
-        let mut nearest = Nearest { squared, hit: hit.unwrap_or(none) };
-        let first = self.spheres.len() + self.planes.len();
-        for (i, custom) in self.customs.iter().enumerate() {
-            if let Some(distance) = custom.nearest(ray) {
-                nearest.consider(first + i, distance);
+    /// The nearest hits of rays that meet nothing but `candidates` and custom
+    /// shapes; `asked` are the lanes, as bits, in which custom shapes are asked.
+    #[inline(always)]
+    pub(super) fn meet<L: Lanes>(
+        &self,
+        lanes: L,
+        candidates: &Candidates,
+        origins: &Vectors<L::Real>,
+        directions: &Vectors<L::Real>,
+        asked: u32,
+    ) -> Nearest<L::Real> {
+        let mut nearest = Nearest::none(lanes);
+        for &i in &candidates.spheres {
+            let i = i as usize;
+            let (hits, distance) = self.spheres[i].meet(lanes, origins, directions);
+            if hits.any() {
+                nearest.consider(lanes, i, distance, hits);
             }
         }
-        (nearest.hit.index != usize::MAX).then_some(nearest.hit)
+        let first = self.spheres.len();
+        for &i in &candidates.planes {
+            let i = i as usize;
+            let (hits, distance) = self.planes[i].meet(lanes, origins, directions);
+            if hits.any() {
+                nearest.consider(lanes, first + i, distance, hits);
+            }
+        }
+        let first = first + self.planes.len();
+        for (i, custom) in self.customs.iter().enumerate() {
+            let mut distances = [f64::NAN; lancer_kernel::lanes::MOST];
+            for k in lanes_of(asked) {
+                let ray = Ray::new(origins.lane(k).into(), directions.lane(k));
+                distances[k] = custom.nearest(&ray).unwrap_or(f64::NAN);
+            }
+            let all = lanes.mask(u32::MAX);
+            nearest.consider(lanes, first + i, lanes.load(&distances), all);
+        }
+        nearest
     }
 
     /// The point that was hit, with all that shading needs.
-    #[inline]
     #[must_use]
     pub fn expand(&self, ray: &Ray, hit: Hit) -> SurfacePoint {
-        let point = ray.at(hit.distance);
+        let point = Vectors::from(ray.origin.coords).after(hit.distance, &ray.direction.into());
         let look = self.looks[hit.index];
         let checked = look.second.is_some();
         let plane = hit.index.wrapping_sub(self.spheres.len());
         let custom = plane.wrapping_sub(self.planes.len());
         let (normal, shows_second) = if let Some(sphere) = self.spheres.get(hit.index) {
-            let normal = sphere.normal(&point);
-            (normal, checked && checker::on_sphere(normal))
+            let normal = sphere.normals(One, &point);
+            (normal.into(), checked && super::checker::on_sphere(One, &normal).any())
         } else if let Some(plane) = self.planes.get(plane) {
-            (plane.normal, checked && plane.shows_second_colour(&point))
+            (plane.normal, checked && plane.shows_second_colour(One, &point).any())
         } else {
-            let custom = &self.customs[custom];
-            let normal = custom.normal(&point);
-            // Lit on the side that is seen.
-            let normal = if normal.dot(&ray.direction) > 0.0 { -normal } else { normal };
-            (normal, checked && custom.shows_second_colour(&point))
+            custom_normal(&*self.customs[custom], point.into(), ray.direction, checked)
         };
         let colour = look.second.filter(|_| shows_second).unwrap_or(look.colour);
+        let point = Vector::from(point).into();
         SurfacePoint { point, normal, colour, gloss: look.gloss, shape: look.shape }
     }
+}
+
+/// The normal of a custom shape on the side that is seen, where it is lit, and
+/// whether it shows the second colour of a checker.
+pub(super) fn custom_normal(
+    custom: &dyn CustomShape,
+    point: Vector,
+    direction: Vector,
+    checked: bool,
+) -> (Vector, bool) {
+    let point = point.into();
+    let normal = custom.normal(&point);
+    let normal = if normal.dot(&direction) > 0.0 { -normal } else { normal };
+    (normal, checked && custom.shows_second_colour(&point))
 }

@@ -163,11 +163,17 @@ impl Prepared {
         self.listed.is_listed(item)
     }
 
-    /// What rays may meet that start at a point and whose angle with an axis of
+    /// What rays may meet that start in a ball and whose angle with an axis of
     /// length 1 has at least that cosine.
     #[must_use]
-    pub fn candidates_in_cone(&self, apex: &Point, axis: &Vector, cosine: f64) -> Candidates {
-        self.listed.in_cone(apex, axis, cosine)
+    pub fn candidates_in_cone(
+        &self,
+        centre: &Point,
+        radius: f64,
+        axis: &Vector,
+        cosine: f64,
+    ) -> Candidates {
+        self.listed.in_cone(centre, radius, axis, cosine)
     }
 
     /// What rays may meet that start in a ball and go to a goal. If all leave the

@@ -9,7 +9,7 @@ use crate::Hit;
 use crate::hierarchy::Stack;
 use crate::lanes::{Lanes, MOST, Mask, Real, lanes_of};
 use crate::primitive::Primitive;
-use crate::rays::Rays;
+use crate::rays::{Rays, Tame};
 use crate::shapes::mesh::Facets;
 use crate::shapes::sphere::Balls;
 use lancer_math::Ray;
@@ -117,13 +117,13 @@ impl Quest for Nearest {
         &mut self,
         balls: &Balls<L::Real>,
         names: &[Name],
-        rays: &Rays<L>,
+        (rays, tame): (&Rays<L>, &Tame<L::Real>),
         first_item: u32,
     ) {
-        let may = balls.may_meet(rays) & first(rays.lanes, names.len());
+        let may = balls.may_meet(rays, tame) & first(rays.lanes, names.len());
         if may.any() {
             let zero = rays.lanes.splat(0.0);
-            let t = balls.crossings(rays).ahead(zero);
+            let t = balls.crossings(rays, tame).ahead(zero);
             let met = may & t.gt(zero) & t.lt(rays.lanes.splat(self.to));
             self.lanes(t, met, |lane| first_item + names[lane].shape());
         }
@@ -201,13 +201,13 @@ impl Quest for Any {
         &mut self,
         balls: &Balls<L::Real>,
         names: &[Name],
-        rays: &Rays<L>,
+        (rays, tame): (&Rays<L>, &Tame<L::Real>),
         _first: u32,
     ) {
-        let may = balls.may_meet(rays) & first(rays.lanes, names.len());
+        let may = balls.may_meet(rays, tame) & first(rays.lanes, names.len());
         if may.any() {
             let zero = rays.lanes.splat(0.0);
-            let t = balls.crossings(rays).ahead(zero);
+            let t = balls.crossings(rays, tame).ahead(zero);
             let met = may & t.gt(zero) & t.lt(rays.lanes.splat(self.t_max));
             self.lanes(met.bits(), |lane| names[lane].is_transparent());
         }
@@ -287,11 +287,11 @@ impl Quest for All<'_> {
         &mut self,
         balls: &Balls<L::Real>,
         names: &[Name],
-        rays: &Rays<L>,
+        (rays, tame): (&Rays<L>, &Tame<L::Real>),
         first_item: u32,
     ) {
-        let may = balls.may_meet_line(rays) & first(rays.lanes, names.len());
-        let pairs = balls.crossings(rays);
+        let may = balls.may_meet_line(rays, tame) & first(rays.lanes, names.len());
+        let pairs = balls.crossings(rays, tame);
         for lane in lanes_of(may.bits()) {
             if self.which.has(names[lane].is_transparent()) {
                 let item = first_item + names[lane].shape();

@@ -15,7 +15,7 @@ use super::{Prepared, Which};
 use crate::hierarchy::Stack;
 use crate::lanes::{Lanes, MOST};
 use crate::primitive::Primitive;
-use crate::rays::Rays;
+use crate::rays::{Rays, Tame};
 use crate::shapes::mesh::Facets;
 use crate::shapes::sphere::Balls;
 use lancer_math::{Placement, Ray};
@@ -48,7 +48,7 @@ pub(super) trait Quest {
         &mut self,
         balls: &Balls<L::Real>,
         names: &[Name],
-        rays: &Rays<L>,
+        rays: (&Rays<L>, &Tame<L::Real>),
         first: u32,
     );
 
@@ -175,6 +175,8 @@ impl<'a> Walk<'a> {
         }
         let from = quest.from().min(0.0);
         let spheres = &space.spheres;
+        let tame = rays.tame();
+        let tamed = (&rays, &tame);
         if !known.spheres && spheres.holds.any(quest.which()) && !quest.is_done() {
             match spheres.hierarchy() {
                 Some(hierarchy) => hierarchy.visit(
@@ -185,13 +187,13 @@ impl<'a> Walk<'a> {
                     (from, quest.to()),
                     #[inline(always)]
                     |places, _| {
-                        leaf(spheres, &places, &rays, place.first, quest);
+                        leaf(spheres, &places, tamed, place.first, quest);
                         go_on(quest)
                     },
                 ),
                 None => {
                     for places in spheres.few() {
-                        leaf(spheres, &places, &rays, place.first, quest);
+                        leaf(spheres, &places, tamed, place.first, quest);
                     }
                 }
             }
@@ -257,13 +259,13 @@ impl<'a> Walk<'a> {
 fn leaf<L: Lanes, Q: Quest>(
     spheres: &Spheres,
     places: &Range<usize>,
-    rays: &Rays<L>,
+    rays: (&Rays<L>, &Tame<L::Real>),
     first: u32,
     quest: &mut Q,
 ) {
     let names = &spheres.names[places.clone()];
     for from in (0..names.len()).step_by(L::WIDTH) {
-        let balls = spheres.load(rays.lanes, places, from);
+        let balls = spheres.load(rays.0.lanes, places, from);
         quest.spheres(&balls, &names[from..], rays, first);
     }
 }

@@ -20,7 +20,7 @@ use crate::checker;
 use crate::crossing::Crossings;
 use crate::lanes::{Lanes, Mask, One, Real, Vectors};
 use crate::primitive::{Cell, Contact, Primitive};
-use crate::rays::{Pairs, Rays};
+use crate::rays::{Pairs, Rays, Tame};
 use lancer_math::{Bounds, Point, Ray, Vector};
 use lancer_scene::{Checker, Sphere};
 
@@ -54,61 +54,66 @@ impl<R: Real> Balls<R> {
     /// c^2, both crossings are behind it. What is so small that squares lose digits is
     /// not left out.
     #[inline(always)]
-    pub(crate) fn may_meet<L: Lanes<Real = R>>(&self, rays: &Rays<L>) -> R::Mask {
+    pub(crate) fn may_meet<L: Lanes<Real = R>>(&self, rays: &Rays<L>, tame: &Tame<R>) -> R::Mask {
         const OUTSIDE: f64 = 1.0 - 9.094_947_017_729_282e-13; // 1 - 2^-40
         let from_centre = rays.origin - self.centre;
-        let b = from_centre.dot(&rays.tame);
+        let b = from_centre.dot(&tame.direction);
         let c2 = from_centre.norm_squared();
         let leaves =
             b.gt(rays.lanes.splat(0.0)) & (c2 * OUTSIDE).gt(self.radius * self.radius + 1e-280);
-        !(self.passes(rays, b, c2) | leaves)
+        !(self.passes(tame, b, c2) | leaves)
     }
 
     /// The same for something ahead or behind.
     #[inline(always)]
-    pub(crate) fn may_meet_line<L: Lanes<Real = R>>(&self, rays: &Rays<L>) -> R::Mask {
+    pub(crate) fn may_meet_line<L: Lanes<Real = R>>(
+        &self,
+        rays: &Rays<L>,
+        tame: &Tame<R>,
+    ) -> R::Mask {
         let from_centre = rays.origin - self.centre;
-        !self.passes(rays, from_centre.dot(&rays.tame), from_centre.norm_squared())
+        !self.passes(tame, from_centre.dot(&tame.direction), from_centre.norm_squared())
     }
 
     /// Not where something is not a number.
     #[inline(always)]
-    fn passes<L: Lanes<Real = R>>(&self, rays: &Rays<L>, b: R, c2: R) -> R::Mask {
+    fn passes(&self, tame: &Tame<R>, b: R, c2: R) -> R::Mask {
         const SLACK: f64 = 5.684_341_886_080_802e-14; // 2^-44
-        ((c2 * (1.0 - SLACK) - self.radius * self.radius) * rays.squared).gt(b * b + 1e-80)
+        ((c2 * (1.0 - SLACK) - self.radius * self.radius) * tame.squared).gt(b * b + 1e-80)
     }
 
     /// Where the rays cross the balls.
     #[inline(always)]
-    pub(crate) fn crossings<L: Lanes<Real = R>>(&self, rays: &Rays<L>) -> Pairs<R> {
+    pub(crate) fn crossings<L: Lanes<Real = R>>(&self, rays: &Rays<L>, tame: &Tame<R>) -> Pairs<R> {
         let lanes = rays.lanes;
+        let inverse = lanes.splat(1.0) / tame.squared;
         let (zero, not) = (lanes.splat(0.0), lanes.splat(f64::NAN));
-        let direction = &rays.tame;
+        let direction = &tame.direction;
         let from_centre = rays.origin - self.centre;
         // An origin within a few times the size of the ball stays where it is: its
         // rounding is small already.
         let is_near = from_centre.amax().le(self.radius * 2.0);
-        let shift = -(from_centre.dot(direction) * rays.inverse);
+        let shift = -(from_centre.dot(direction) * inverse);
         let shift = is_near.select(zero, shift);
         let moved = steps(&rays.origin, &self.centre, shift, direction);
         let origin = Vectors::select(is_near, from_centre, moved);
         // What is left along the ray, all of it where the origin was not moved.
-        let along = origin.dot(direction) * rays.inverse;
+        let along = origin.dot(direction) * inverse;
         let p = direction.mul_add(-along, origin).norm();
         let under_root = (self.radius - p) * (self.radius + p);
-        let half = (under_root * rays.inverse).sqrt();
+        let half = (under_root * inverse).sqrt();
         let middle = shift - along;
         let far = middle + half.copysign(middle);
         let close = middle - half.copysign(middle);
         let cancels = half.gt(middle.abs() * 0.5);
         let close = if cancels.any() {
-            cancels.select(self.excess(lanes, &rays.origin) / (rays.squared * far), close)
+            cancels.select(self.excess(lanes, &rays.origin) / (tame.squared * far), close)
         } else {
             close
         };
         // Not for NaN either.
         let meets = under_root.ge(zero);
-        let pairs = Pairs::sorted(far * rays.unit, close * rays.unit);
+        let pairs = Pairs::sorted(far * tame.unit, close * tame.unit);
         Pairs { near: meets.select(pairs.near, not), far: meets.select(pairs.far, not) }
     }
 
@@ -163,9 +168,10 @@ impl Primitive for Ball {
     #[inline]
     fn crossings(&self, ray: &Ray) -> Crossings {
         let (ball, rays) = (Balls::splat(One, self), Rays::splat(One, ray));
+        let tame = rays.tame();
         let mut crossings = Crossings::NONE;
-        if ball.may_meet_line(&rays).any() {
-            let pairs = ball.crossings(&rays);
+        if ball.may_meet_line(&rays, &tame).any() {
+            let pairs = ball.crossings(&rays, &tame);
             crossings.add(pairs.near, 0);
             crossings.add(pairs.far, 0);
         }
@@ -175,10 +181,11 @@ impl Primitive for Ball {
     #[inline]
     fn nearest(&self, ray: &Ray, t_max: f64) -> Option<Crossing> {
         let (ball, rays) = (Balls::splat(One, self), Rays::splat(One, ray));
-        if !ball.may_meet(&rays).any() {
+        let tame = rays.tame();
+        if !ball.may_meet(&rays, &tame).any() {
             return None;
         }
-        let t = ball.crossings(&rays).ahead(0.0);
+        let t = ball.crossings(&rays, &tame).ahead(0.0);
         (t > 0.0 && t < t_max).then_some(Crossing { t, part: 0 })
     }
 

@@ -20,8 +20,8 @@ use buffers::{Buffers, Bundle, Triple, load};
 use lancer_film::Window;
 use lancer_kernel::Candidates;
 use lancer_kernel::Rays;
-use lancer_kernel::lanes::{Lanes, MOST, Mask, Real, Vectors, Work, dispatch};
-use lancer_math::Vector;
+use lancer_kernel::lanes::{Lanes, MOST, Mask, Real, Vectors, Work, dispatch, larger, smaller};
+use lancer_math::{Bounds, Point, Vector};
 use std::cell::RefCell;
 
 thread_local! {
@@ -54,8 +54,7 @@ impl Work for Tile<'_> {
     #[inline(always)]
     fn run<L: Lanes>(mut self, lanes: L) {
         let among = self.begin(lanes);
-        let mut among =
-            if self.tracer.kernel.culling.tile_candidates { among } else { Candidates::ALL };
+        let mut among = if self.culls_tiles() { among } else { Candidates::ALL };
         let mut kind = Kind::Primary;
         let mut depth = 0;
         while self.buffers.rays.count > 0 {
@@ -65,7 +64,8 @@ impl Work for Tile<'_> {
             self.shade_all(lanes, depth, kind);
             std::mem::swap(&mut self.buffers.rays, &mut self.buffers.next);
             self.buffers.rays.pad();
-            (among, kind) = (Candidates::ALL, Kind::Reflected);
+            kind = Kind::Reflected;
+            among = if self.culls_tiles() { self.ahead(lanes) } else { Candidates::ALL };
             depth += 1;
         }
         self.end();
@@ -109,7 +109,31 @@ impl Tile<'_> {
             return Candidates::ALL;
         };
         let cosine = corners.iter().map(|corner| corner.dot(&axis)).fold(1.0, f64::min);
-        self.tracer.prepared.candidates_in_cone(&eye, &axis, cosine)
+        self.tracer.prepared.candidates_in_cone(&eye, 0.0, &axis, cosine)
+    }
+
+    fn culls_tiles(&self) -> bool {
+        self.tracer.kernel.culling.tile_candidates
+    }
+
+    /// What mirrored rays may meet.
+    #[inline(always)]
+    fn ahead<L: Lanes>(&self, lanes: L) -> Candidates {
+        let rays = &self.buffers.rays;
+        let origins = extent(lanes, &rays.origin, rays.count);
+        let mut sum = Vectors::splat(lanes, &Vector::zeros());
+        for at in (0..rays.count).step_by(L::WIDTH) {
+            sum = sum + load(lanes, &rays.direction, at);
+        }
+        let sum = (0..L::WIDTH).map(|k| sum.lane(k)).sum::<Vector>();
+        let Some(axis) = lancer_math::unit(sum) else { return Candidates::ALL };
+        let (mut least, across) = (lanes.splat(1.0), Vectors::splat(lanes, &axis));
+        for at in (0..rays.count).step_by(L::WIDTH) {
+            least = smaller(load(lanes, &rays.direction, at).dot(&across), least);
+        }
+        let cosine = (0..L::WIDTH).map(|k| least.lane(k)).fold(1.0, f64::min);
+        let (centre, radius) = ball_around(&origins);
+        self.tracer.prepared.candidates_in_cone(&centre, radius, &axis, cosine)
     }
 
     /// What the rays meet.
@@ -288,6 +312,38 @@ fn add(radiance: &mut Triple, pixel: u16, share: [f64; 3], seen: [f64; 3]) {
             radiance[i][usize::from(pixel)] += share[i] * seen[i];
         }
     }
+}
+
+/// A box around the first points of a triple whose last register is filled.
+#[inline(always)]
+fn extent<L: Lanes>(lanes: L, points: &Triple, count: usize) -> Bounds {
+    let infinite = lanes.splat(f64::INFINITY);
+    let mut least = Vectors { x: infinite, y: infinite, z: infinite };
+    let mut most = -least;
+    for at in (0..count).step_by(L::WIDTH) {
+        let point = load(lanes, points, at);
+        least = Vectors {
+            x: smaller(point.x, least.x),
+            y: smaller(point.y, least.y),
+            z: smaller(point.z, least.z),
+        };
+        most = Vectors {
+            x: larger(point.x, most.x),
+            y: larger(point.y, most.y),
+            z: larger(point.z, most.z),
+        };
+    }
+    (0..L::WIDTH).fold(Bounds::EMPTY, |bounds, k| {
+        let (min, max) = (least.lane(k).into(), most.lane(k).into());
+        bounds.union(Bounds { min, max })
+    })
+}
+
+/// A ball around a box.
+fn ball_around(bounds: &Bounds) -> (Point, f64) {
+    let centre = bounds.centre();
+    let half = (bounds.max - centre).norm().max((bounds.min - centre).norm());
+    (centre, half * (1.0 + 1e-9))
 }
 
 /// x x' + y y' + z z' in that order, as one ray alone has it.

@@ -3,9 +3,9 @@
 
 use super::buffers::{Buffers, Triple, from_mut, load};
 use super::units::units;
-use super::{Tile, dot, first_lanes};
+use super::{Tile, ball_around, dot, extent, first_lanes};
 use lancer_kernel::Rays;
-use lancer_kernel::lanes::{Lanes, Mask, Real, Vectors, lanes_of, larger, smaller};
+use lancer_kernel::lanes::{Lanes, Mask, Real, Vectors, lanes_of, larger};
 use lancer_math::{Bounds, Point, Vector};
 use lancer_scene::Pattern;
 
@@ -21,9 +21,8 @@ impl Around {
     /// Around points, from each of which a ray leaves by twice its error and no
     /// more than the largest one.
     fn new(bounds: &Bounds, error: f64, side: Option<Vector>) -> Self {
-        let centre = bounds.centre();
-        let half = (bounds.max - centre).norm().max((bounds.min - centre).norm());
-        let radius = (half + 4.0 * error) * (1.0 + 1e-9);
+        let (centre, radius) = ball_around(bounds);
+        let radius = (radius + 4.0 * error) * (1.0 + 1e-9);
         Self { centre, radius, side }
     }
 }
@@ -61,9 +60,6 @@ impl Tile<'_> {
         let [first, second] =
             prepared.albedos(item).map(|albedo| Vectors::splat(lanes, &Vector::from(albedo)));
         let Buffers { group, sights, .. } = &mut *self.buffers;
-        let infinite = lanes.splat(f64::INFINITY);
-        let mut least = Vectors { x: infinite, y: infinite, z: infinite };
-        let mut most = -least;
         let mut largest = lanes.splat(0.0);
         let (mut behind, mut before) = (lanes.mask(0), lanes.mask(0));
         for at in (0..group.count).step_by(L::WIDTH) {
@@ -77,8 +73,6 @@ impl Tile<'_> {
             behind = behind | from_behind;
             before = before | !from_behind;
             let point = points.point;
-            least = pairwise(&point, &least, smaller);
-            most = pairwise(&point, &most, larger);
             largest = larger(points.error, largest);
             point.store(from_mut(&mut sights.point, at));
             points.error.store(&mut sights.error[at..]);
@@ -98,13 +92,8 @@ impl Tile<'_> {
                 (0..3).for_each(|i| sights.albedo[i][at + k] = seen.albedo[i]);
             }
         }
-        let mut bounds = Bounds::EMPTY;
-        let mut error = 0.0_f64;
-        for k in 0..L::WIDTH {
-            let [least, most] = [least, most].map(|corner| Point::from(corner.lane(k)));
-            bounds = bounds.union(Bounds { min: least, max: most });
-            error = error.max(largest.lane(k));
-        }
+        let bounds = extent(lanes, &sights.point, group.count);
+        let error = (0..L::WIDTH).map(|k| largest.lane(k)).fold(0.0, f64::max);
         let one_side = behind.any() != before.any();
         let side = one_side.then(|| load(lanes, &sights.facet, 0).lane(0));
         Around::new(&bounds, error, side)
@@ -156,6 +145,9 @@ impl Tile<'_> {
     fn deliver<L: Lanes>(&mut self, lanes: L) {
         let Buffers { group, sights, radiance, .. } = &mut *self.buffers;
         let zero = lanes.splat(0.0);
+        // One for each pixel: what is added to the last register beyond them is never
+        // looked at.
+        let in_order = group.count == self.window.pixels() as usize;
         for axis in 0..3 {
             let radiance = &mut radiance[axis];
             let light = &sights.light[if sights.is_grey { 0 } else { axis }];
@@ -165,6 +157,11 @@ impl Tile<'_> {
                 // Nothing of something infinite is nothing.
                 let nothing = share.eq(zero) | light.eq(zero);
                 let seen = nothing.select(zero, share * light);
+                if in_order {
+                    let sum = lanes.load(&radiance[at..]) + seen;
+                    sum.store(&mut radiance[at..]);
+                    continue;
+                }
                 for k in 0..L::WIDTH.min(group.count - at) {
                     radiance[usize::from(group.pixel[at + k])] += seen.lane(k);
                 }
@@ -206,9 +203,4 @@ pub(super) fn leaving<L: Lanes>(
 ) -> L::Real {
     let away = error * 2.0;
     dot(direction, normal).lt(lanes.splat(0.0)).select(-away, away)
-}
-
-#[inline(always)]
-fn pairwise<R: Real>(a: &Vectors<R>, b: &Vectors<R>, f: impl Fn(R, R) -> R) -> Vectors<R> {
-    Vectors { x: f(a.x, b.x), y: f(a.y, b.y), z: f(a.z, b.z) }
 }

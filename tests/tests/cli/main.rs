@@ -1,5 +1,9 @@
 //! The program itself, run as a user runs it.
 
+#[cfg(unix)]
+mod unix;
+
+use lancer_integrator::Width;
 use lancer_tests::paths::scenes;
 use std::fs;
 use std::io::Write;
@@ -38,14 +42,26 @@ impl Folder {
         names
     }
 
+    /// What `--stats s.json` wrote.
+    fn stats(&self) -> serde_json::Value {
+        serde_json::from_slice(&bytes(&self.path("s.json"))).expect("it is JSON")
+    }
+
     fn run(&self, arguments: &[&str]) -> Run {
         self.run_with(arguments, b"")
     }
 
     fn run_with(&self, arguments: &[&str], input: &[u8]) -> Run {
+        self.run_in(&[], arguments, input)
+    }
+
+    /// With these variables in its environment.
+    fn run_in(&self, environment: &[(&str, &str)], arguments: &[&str], input: &[u8]) -> Run {
         let mut child = Command::new(env!("CARGO_BIN_EXE_lancer-under-test"))
             .args(arguments)
             .current_dir(self.0.path())
+            .env_remove("LANCER_LANES")
+            .envs(environment.iter().copied())
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
@@ -145,6 +161,46 @@ fn threads_and_crops_agree_with_the_whole() {
 }
 
 #[test]
+fn any_lanes_and_threads_make_the_same_file() {
+    let folder = Folder::new();
+    let lanes = Width::available();
+    for engine in ["whitted", "classic", "direct"] {
+        let mut files = Vec::new();
+        for (lanes, threads) in lanes.iter().zip(["1", "2", "3", "7"].iter().cycle()) {
+            let environment = [("LANCER_LANES", lanes.name())];
+            let arguments = ["render", "scene.xml", "-o", "a.ppm", "--stats", "s.json"];
+            // Enough components for several threads to make codes of.
+            let size = ["--size", "230x110", "--threads", threads, "--engine", engine];
+            folder.run_in(&environment, &[&arguments[..], &size].concat(), b"").silent();
+            let stats = folder.stats();
+            assert_eq!(stats["lanes"], lanes.name());
+            assert_eq!(stats["threads"].to_string(), **threads);
+            files.push(bytes(&folder.path("a.ppm")));
+        }
+        assert!(files.iter().all(|file| *file == files[0]), "{engine}");
+    }
+    folder.run(&["render", "scene.xml", "-o", "a.ppm", "--stats", "s.json"]).silent();
+    assert_eq!(folder.stats()["lanes"], Width::best().name(), "the widest by default");
+}
+
+#[test]
+fn lanes_that_are_not_there_are_wrong_usage() {
+    let folder = Folder::new();
+    for wrong in ["avx1024", "", "SCALAR"] {
+        let environment = [("LANCER_LANES", wrong)];
+        // Known before anything is read: there is no such scene.
+        let run = folder.run_in(&environment, &["render", "gone.xml", "-o", "a.png"], b"");
+        let run = run.fails(2, &format!("LANCER_LANES: there are no lanes `{wrong}`"));
+        for width in Width::available() {
+            assert!(run.err().contains(width.name()), "{}", run.err());
+        }
+    }
+    assert_eq!(folder.files(), ["scene.xml"]);
+    let help = folder.run(&["render", "--help"]).out();
+    assert!(help.contains("Environment:") && help.contains("LANCER_LANES"), "{help}");
+}
+
+#[test]
 fn sizes_are_as_asked_for() {
     let folder = Folder::new();
     folder.run(&["render", "scene.xml", "-o", "a.ppm", "--size", "13x7"]).silent();
@@ -170,8 +226,7 @@ fn statistics_add_up() {
     folder
         .run(&["render", "scene.xml", "-o", "a.png", "--stats", "s.json", "--threads", "2"])
         .silent();
-    let stats: serde_json::Value =
-        serde_json::from_slice(&bytes(&folder.path("s.json"))).expect("it is JSON");
+    let stats = folder.stats();
     assert_eq!(stats["engine"], "whitted");
     assert!(stats["exposure"].as_f64().is_some_and(|stops| (stops * 64.0).fract() == 0.0));
     assert_eq!((&stats["cutoff"], &stats["troubles"]["media"]["count"]), (&1e-4.into(), &0.into()));
@@ -331,180 +386,18 @@ fn compare_tells_by_its_exit_code() {
     folder.run(&["compare", "a.png", "a.ppm", "--diff", "a.png"]).fails(2, "a file of its own");
 }
 
-#[cfg(unix)]
-mod unix {
-    use super::*;
-    use std::os::unix::fs::PermissionsExt;
-    use std::time::{Duration, Instant};
-
-    #[test]
-    fn files_have_ordinary_permissions_and_keep_their_own() {
-        let folder = Folder::new();
-        fs::write(folder.path("ordinary"), "").expect("written");
-        let mode = |name: &str| {
-            fs::metadata(folder.path(name)).expect("it is there").permissions().mode() & 0o777
-        };
-        folder.run(&["render", "scene.xml", "-o", "a.png"]).silent();
-        assert_eq!(mode("a.png"), mode("ordinary"));
-        let private = fs::Permissions::from_mode(0o600);
-        fs::set_permissions(folder.path("a.png"), private).expect("it is ours");
-        folder.run(&["render", "scene.xml", "-o", "a.png"]).silent();
-        assert_eq!(mode("a.png"), 0o600);
-    }
-
-    #[test]
-    fn links_are_followed_and_devices_written_to() {
-        let folder = Folder::new();
-        fs::create_dir(folder.path("real")).expect("created");
-        fs::write(folder.path("real/a.png"), "old").expect("written");
-        std::os::unix::fs::symlink("real/a.png", folder.path("link.png")).expect("created");
-        folder.run(&["render", "scene.xml", "-o", "link.png"]).silent();
-        assert!(fs::symlink_metadata(folder.path("link.png")).expect("there").is_symlink());
-        assert!(bytes(&folder.path("real/a.png")).starts_with(b"\x89PNG"));
-        folder.run(&["render", "scene.xml", "-o", "/dev/null", "--format", "png"]).silent();
-        // Also to where there is nothing yet.
-        std::os::unix::fs::symlink("real/new.png", folder.path("dangling.png")).expect("created");
-        folder.run(&["render", "scene.xml", "-o", "dangling.png"]).silent();
-        assert!(fs::symlink_metadata(folder.path("dangling.png")).expect("there").is_symlink());
-        assert!(bytes(&folder.path("real/new.png")).starts_with(b"\x89PNG"));
-        let run = folder.run(&["render", "scene.xml", "-o", "/dev/stdout", "--format", "qoi"]);
-        assert!(run.0.stdout.starts_with(b"qoif"));
-    }
-
-    #[test]
-    fn read_only_files_are_not_replaced() {
-        let folder = Folder::new();
-        fs::write(folder.path("a.png"), "precious").expect("written");
-        let read_only = fs::Permissions::from_mode(0o444);
-        fs::set_permissions(folder.path("a.png"), read_only).expect("it is ours");
-        folder.run(&["render", "scene.xml", "-o", "a.png"]).fails(1, "it is read-only");
-        folder.run(&["render", "scene.xml", "-o", "b.png/"]).fails(1, "that names a folder");
-        assert_eq!(bytes(&folder.path("a.png")), b"precious");
-    }
-
-    /// `nohup`, and jobs in the background of a script, have signals ignored.
-    #[cfg(target_os = "linux")]
-    #[test]
-    fn signals_that_are_ignored_stay_ignored() {
-        let folder = Folder::new();
-        let script = format!(
-            "trap '' HUP INT; {} render scene.xml -o a.ppm --size 1500x1500 & \
-             sleep 0.3; kill -INT $!; kill -HUP $!; wait $!",
-            env!("CARGO_BIN_EXE_lancer-under-test")
-        );
-        let mut shell = Command::new("sh");
-        let status = shell.args(["-c", &script]).current_dir(folder.0.path()).status();
-        assert_eq!(status.expect("there is a shell").code(), Some(0));
-        assert!(bytes(&folder.path("a.ppm")).starts_with(b"P6\n1500 1500\n"));
-    }
-
-    /// A terminal that answers no question, as `script` gives one, must not keep
-    /// the preview waiting; where there is no `script` this shows nothing.
-    #[cfg(target_os = "linux")]
-    #[test]
-    fn a_preview_does_not_wait_for_a_dumb_terminal() {
-        let folder = Folder::new();
-        let command = format!(
-            "{} render scene.xml --preview --size 8x8 --quiet",
-            env!("CARGO_BIN_EXE_lancer-under-test")
-        );
-        let child = Command::new("script")
-            .args(["--quiet", "--return", "--command", &command, "/dev/null"])
-            .current_dir(folder.0.path())
-            .env("TERM", "xterm-256color")
-            .stdin(Stdio::null())
-            .stdout(Stdio::piped())
-            .spawn();
-        let Ok(mut child) = child else {
-            println!("skipped: there is no `script` on this machine");
-            return;
-        };
-        let begun = Instant::now();
-        while child.try_wait().expect("it can be waited for").is_none() {
-            assert!(begun.elapsed() < Duration::from_secs(20), "it hangs");
-            std::thread::sleep(Duration::from_millis(50));
-        }
-        let output = child.wait_with_output().expect("it has ended");
-        assert!(output.status.success());
-        let text = String::from_utf8_lossy(&output.stdout);
-        assert!(text.contains("\u{1b}[48;") || text.contains("\u{1b}[38;"), "{text:?}");
-    }
-
-    #[test]
-    fn an_interruption_leaves_the_old_picture_and_no_rubbish() {
-        for signal in ["INT", "TERM"] {
-            let folder = Folder::new();
-            fs::write(folder.path("a.png"), "the old picture").expect("written");
-            // The tests themselves may be run where signals are ignored, under
-            // `nohup` say; then the program would rightly go on.
-            let program = env!("CARGO_BIN_EXE_lancer-under-test");
-            let mut command = if cfg!(target_os = "linux") {
-                let mut command = Command::new("env");
-                command.args(["--default-signal=HUP,INT,TERM", program]);
-                command
-            } else {
-                Command::new(program)
-            };
-            let mut child = command
-                .args("render scene.xml -o a.png --size 20000x5000 --crop 0,0,9,9".split(' '))
-                .current_dir(folder.0.path())
-                .stderr(Stdio::piped())
-                .spawn()
-                .expect("it starts");
-            // Long enough for it to have begun, far too short for it to end.
-            std::thread::sleep(Duration::from_millis(700));
-            let killed = Command::new("kill")
-                .args([&format!("-{signal}"), &child.id().to_string()])
-                .status()
-                .expect("there is a kill");
-            assert!(killed.success(), "it was still at work");
-            let begun = Instant::now();
-            let status = child.wait().expect("it ends");
-            assert!(begun.elapsed() < Duration::from_secs(5), "soon");
-            assert_eq!(status.code(), Some(1), "SIG{signal}");
-            let output = child.stderr.take().map(std::io::read_to_string);
-            let output = output.expect("it is piped").expect("it is text");
-            assert!(output.contains("interrupted; no picture was written"), "{output}");
-            assert_eq!(bytes(&folder.path("a.png")), b"the old picture");
-            assert_eq!(folder.files(), ["a.png", "scene.xml"]);
-        }
-    }
-
-    #[test]
-    fn nobody_listening_is_no_panic() {
-        let folder = Folder::new();
-        let script = format!(
-            "{} render scene.xml -o - --size 900x900 2>err | head -c 3; \
-             {} check scene.xml 2>>err | true; exit 0",
-            env!("CARGO_BIN_EXE_lancer-under-test"),
-            env!("CARGO_BIN_EXE_lancer-under-test"),
-        );
-        let status = Command::new("sh")
-            .args(["-c", &script])
-            .current_dir(folder.0.path())
-            .stdout(Stdio::null())
-            .status();
-        assert!(status.expect("there is a shell").success());
-        let err = fs::read_to_string(folder.path("err")).expect("it was written");
-        assert!(!err.contains("panicked"), "{err}");
-        assert!(err.contains("cannot write to standard output"), "{err}");
-    }
-}
-
 #[test]
 fn the_exposure_that_was_found_can_be_given_back() {
     let folder = Folder::new();
     folder.run(&["render", "scene.xml", "-o", "a.png", "--stats", "s.json"]).silent();
-    let stats: serde_json::Value =
-        serde_json::from_slice(&bytes(&folder.path("s.json"))).expect("it is JSON");
+    let stats = folder.stats();
     let stops = stats["exposure"].to_string();
     folder.run(&["render", "scene.xml", "-o", "b.png", "--exposure", &stops]).silent();
     assert!(bytes(&folder.path("a.png")) == bytes(&folder.path("b.png")));
     // A crop is as bright as the whole, and knows the same number.
     let crop = ["render", "scene.xml", "-o", "c.png", "--crop", "3,4,5,6", "--stats", "s.json"];
     folder.run(&crop).silent();
-    let stats: serde_json::Value =
-        serde_json::from_slice(&bytes(&folder.path("s.json"))).expect("it is JSON");
+    let stats = folder.stats();
     assert_eq!(stats["exposure"].to_string(), stops);
     folder.run(&["render", "scene.xml", "-o", "d.png", "--exposure", "-30"]).silent();
     assert!(bytes(&folder.path("a.png")) != bytes(&folder.path("d.png")));
