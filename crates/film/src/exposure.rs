@@ -1,7 +1,6 @@
 //! How much light a picture is shown with, in stops: one more doubles what is
 //! shown of the same radiance.
 
-use crate::Film;
 use std::ops::AddAssign;
 use std::sync::LazyLock;
 
@@ -62,7 +61,8 @@ impl LightMeter {
     pub fn see(&mut self, pixels: &[[f32; 3]]) {
         let steps = Steps::table();
         for pixel in pixels {
-            let peak = Film::peak(std::slice::from_ref(pixel));
+            // As `Film::peak` has it.
+            let peak = pixel.iter().fold(0.0, |peak, v| if *v > peak { *v } else { peak });
             if peak > 0.0 && peak.is_finite() {
                 self.counts[(steps.of(peak) - FEWEST) as usize] += 1;
             }

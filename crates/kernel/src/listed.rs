@@ -2,7 +2,7 @@
 //! of rays are held against each, so that for them no hierarchy is needed.
 
 use crate::Which;
-use crate::lanes::{Lanes, Mask, Real, Vectors, lanes_of};
+use crate::lanes::{Lanes, Mask, Real, Vectors};
 use crate::rays::Rays;
 use crate::shapes::plane::{HalfSpace, HalfSpaces};
 use crate::shapes::sphere::{Ball, Balls};
@@ -106,7 +106,8 @@ impl Listed {
         let zero = lanes.splat(0.0);
         let mut best = LaneHits { t: t_max, item: lanes.splat(-1.0), part: zero };
         let all = self.all();
-        for k in bits_of(among.planes & all.planes) {
+        let mut asked = among.planes & all.planes;
+        while let Some(k) = next_bit(&mut asked) {
             let (item, plane) = &self.planes[k];
             let (ahead, slope) = HalfSpaces::splat(lanes, plane).slopes(rays);
             // Of different signs they are behind.
@@ -115,12 +116,12 @@ impl Listed {
                 best.consider(ahead / slope, lanes.splat(f64::from(*item)), is_ahead);
             }
         }
-        let asked = among.balls & all.balls;
+        let mut asked = among.balls & all.balls;
         if asked == 0 {
             return best;
         }
         let tame = rays.tame();
-        for k in bits_of(asked) {
+        while let Some(k) = next_bit(&mut asked) {
             let (item, ball) = &self.balls[k];
             let balls = Balls::splat(lanes, ball);
             let may = balls.may_meet(rays, &tame);
@@ -145,7 +146,8 @@ impl Listed {
         let (zero, t_max) = (lanes.splat(0.0), lanes.splat(t_max));
         let of = self.of(which);
         let mut met = lanes.mask(0);
-        for k in bits_of(among.planes & of.planes) {
+        let mut asked = among.planes & of.planes;
+        while let Some(k) = next_bit(&mut asked) {
             let (ahead, slope) = HalfSpaces::splat(lanes, &self.planes[k].1).slopes(rays);
             let is_ahead = same_sign(ahead, slope, zero);
             if is_ahead.any() {
@@ -153,12 +155,12 @@ impl Listed {
                 met = met | (t.gt(zero) & t.lt(t_max));
             }
         }
-        let asked = among.balls & of.balls;
+        let mut asked = among.balls & of.balls;
         if asked == 0 {
             return met;
         }
         let tame = rays.tame();
-        for k in bits_of(asked) {
+        while let Some(k) = next_bit(&mut asked) {
             let balls = Balls::splat(lanes, &self.balls[k].1);
             let may = balls.may_meet(rays, &tame);
             if may.any() {
@@ -320,12 +322,13 @@ fn same_sign<R: Real>(a: R, b: R, zero: R) -> R::Mask {
     (a.gt(zero) & b.gt(zero)) | (a.lt(zero) & b.lt(zero))
 }
 
-/// The places of the bits that are set.
+/// Takes the lowest bit that is set, and says where it was.
 #[inline(always)]
-fn bits_of(bits: u64) -> impl Iterator<Item = usize> {
-    let (low, high) = (bits as u32, (bits >> 32) as u32);
-    lanes_of(low).chain(lanes_of(high).map(
-        #[inline(always)]
-        |k| k + 32,
-    ))
+fn next_bit(bits: &mut u64) -> Option<usize> {
+    if *bits == 0 {
+        return None;
+    }
+    let place = bits.trailing_zeros() as usize;
+    *bits &= *bits - 1;
+    Some(place)
 }

@@ -111,23 +111,25 @@ impl Lights {
     ) -> Rgb64 {
         let mut sum = [0.0; 3];
         for light in &self.lights {
-            let (way, distance, t_max) = match &light.place {
+            let (way, squared, t_max) = match &light.place {
                 From::Direction(direction) => (*direction, 1.0, f64::INFINITY),
                 From::Point(lamp) => {
                     let way = lamp - seen.point.point;
                     // From where the shadow ray starts it is 1 to the lamp.
-                    (way, way.norm(), 1.0)
+                    (way, way.norm_squared(), 1.0)
                 }
             };
-            let cosine = way.dot(&seen.shading) / distance;
+            let along = way.dot(&seen.shading);
             // Not for NaN either: a lamp in the very point lights nothing.
-            if !(cosine > 0.0 && way.dot(&seen.facet) > 0.0) {
+            if !(along > 0.0 && way.dot(&seen.facet) > 0.0) {
                 continue;
             }
-            let mut strength = light.brightness * cosine;
-            if light.falloff == Falloff::Square {
-                strength /= distance * distance;
-            }
+            let distance = squared.sqrt();
+            // The cosine, over the square where light falls off, by one division.
+            let mut strength = match light.falloff {
+                Falloff::Square => light.brightness * along / (squared * distance),
+                Falloff::None => light.brightness * along / distance,
+            };
             if let Some(beam) = &light.beam {
                 strength *= beam.share(&(way / -distance));
             }

@@ -23,6 +23,8 @@ pub(crate) struct HalfSpace {
     pub(crate) origin: Point,
     /// With its largest component in [1, 2), exact.
     pub(crate) normal: Vector,
+    /// One over its squared length.
+    inverse: f64,
     frame: Frame,
 }
 
@@ -30,7 +32,9 @@ impl HalfSpace {
     pub(crate) fn new(plane: &Plane) -> Self {
         let normal = plane.normal.get();
         let frame = Frame::new(unit(normal).unwrap_or_else(Vector::z));
-        Self { origin: plane.origin.get(), normal: tamed(&normal), frame }
+        let normal = tamed(&normal);
+        let inverse = 1.0 / normal.norm_squared();
+        Self { origin: plane.origin.get(), normal, inverse, frame }
     }
 }
 
@@ -45,9 +49,9 @@ fn onto_plane<R: Real>(
     p: &Vectors<R>,
     origin: &Vectors<R>,
     normal: &Vectors<R>,
-    squared: R,
+    inverse: R,
 ) -> (Vectors<R>, R) {
-    let off = (*p - *origin).dot(normal) / squared;
+    let off = (*p - *origin).dot(normal) * inverse;
     let point = normal.mul_add(-off, *p);
     // Not of the point alone: where it is near the origin of the world, what was
     // subtracted may be larger than what is left.
@@ -61,6 +65,7 @@ pub(crate) struct HalfSpaces<R> {
     origin: Vectors<R>,
     normal: Vectors<R>,
     unit: Vectors<R>,
+    inverse: R,
 }
 
 impl<R: Real> HalfSpaces<R> {
@@ -70,6 +75,7 @@ impl<R: Real> HalfSpaces<R> {
             origin: Vectors::splat_point(lanes, &plane.origin),
             normal: Vectors::splat(lanes, &plane.normal),
             unit: Vectors::splat(lanes, &plane.frame.axis),
+            inverse: lanes.splat(plane.inverse),
         }
     }
 
@@ -88,8 +94,7 @@ impl<R: Real> HalfSpaces<R> {
         t: R,
     ) -> (Vectors<R>, R, Vectors<R>) {
         let at = rays.direction.mul_add(t, rays.origin);
-        let (point, error) =
-            onto_plane(&at, &self.origin, &self.normal, self.normal.norm_squared());
+        let (point, error) = onto_plane(&at, &self.origin, &self.normal, self.inverse);
         (point, error, self.unit)
     }
 }
@@ -115,12 +120,14 @@ impl HalfSpace {
         checker: &Checker,
     ) -> (L::Real, L::Real) {
         let from_origin = *point - Vectors::splat_point(lanes, &self.origin);
-        let length = lanes.splat(checker.length.get());
-        let [first, second] = [&self.frame.first, &self.frame.second].map(
-            #[inline(always)]
-            |axis| Vectors::splat(lanes, axis).dot(&from_origin) / length,
-        );
-        (first, second)
+        let length = checker.length.get();
+        let first = Vectors::splat(lanes, &self.frame.first).dot(&from_origin);
+        let second = Vectors::splat(lanes, &self.frame.second).dot(&from_origin);
+        if length == 1.0 {
+            return (first, second);
+        }
+        let length = lanes.splat(length);
+        (first / length, second / length)
     }
 }
 

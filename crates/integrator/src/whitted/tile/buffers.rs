@@ -122,6 +122,8 @@ pub(super) struct Sights {
     pub(super) error: Column,
     /// The normals on the side that is seen.
     pub(super) facet: Triple,
+    /// Where those to shade with are others, these.
+    pub(super) is_smooth: bool,
     pub(super) shading: Triple,
     pub(super) albedo: Triple,
     /// The share of the matte part in the pixel, by colour.
@@ -139,6 +141,7 @@ impl Sights {
             point: NONE,
             error: NONE[0],
             facet: NONE,
+            is_smooth: false,
             shading: NONE,
             albedo: NONE,
             matte: NONE,
@@ -175,6 +178,12 @@ impl Buffers {
             items: Vec::with_capacity(MOST_RAYS),
             slots: [0; ROOM],
         })
+    }
+
+    /// What there is to sort where all rays met the same.
+    pub(super) fn all_alike(&mut self) {
+        self.items.clear();
+        self.items.push((self.rays.item[0], self.rays.count as u16));
     }
 
     /// Sorts the rays by what they met, in the order in which it is first met.

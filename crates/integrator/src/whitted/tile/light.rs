@@ -48,18 +48,19 @@ impl Tile<'_> {
         let prepared = &self.tracer.prepared;
         let Buffers { group, sights, .. } = &mut *self.buffers;
         let point = load(lanes, &sights.point, at);
-        let (facet, shading) = (load(lanes, &sights.facet, at), load(lanes, &sights.shading, at));
-        let (way, distance, t_max) = match &source.place {
+        let facet = load(lanes, &sights.facet, at);
+        let shading = if sights.is_smooth { load(lanes, &sights.shading, at) } else { facet };
+        let (way, squared, t_max) = match &source.place {
             From::Direction(direction) => {
                 (Vectors::splat(lanes, direction), lanes.splat(1.0), f64::INFINITY)
             }
             From::Point(lamp) => {
                 let way = Vectors::splat_point(lanes, lamp) - point;
-                (way, dot(&way, &way).sqrt(), 1.0)
+                (way, dot(&way, &way), 1.0)
             }
         };
-        let cosine = dot(&way, &shading) / distance;
-        let is_lit = cosine.gt(zero) & dot(&way, &facet).gt(zero);
+        let along = dot(&way, &shading);
+        let is_lit = along.gt(zero) & dot(&way, &facet).gt(zero);
         let matters = !(lanes.load(&sights.matte[0][at..]).eq(zero)
             & lanes.load(&sights.matte[1][at..]).eq(zero)
             & lanes.load(&sights.matte[2][at..]).eq(zero));
@@ -67,10 +68,12 @@ impl Tile<'_> {
         if !asked.any() {
             return;
         }
-        let mut strength = lanes.splat(source.brightness) * cosine;
-        if source.falloff == Falloff::Square {
-            strength = strength / (distance * distance);
-        }
+        let distance = squared.sqrt();
+        let bright = lanes.splat(source.brightness) * along;
+        let mut strength = match source.falloff {
+            Falloff::Square => bright / (squared * distance),
+            Falloff::None => bright / distance,
+        };
         if let Some(beam) = &source.beam {
             let mut shares = [0.0; MOST];
             for k in lanes_of(asked.bits()) {

@@ -58,8 +58,11 @@ impl Work for Tile<'_> {
         let mut kind = Kind::Primary;
         let mut depth = 0;
         while self.buffers.rays.count > 0 {
-            self.meet(lanes, &among);
-            self.buffers.sort();
+            if self.meet(lanes, &among) {
+                self.buffers.all_alike();
+            } else {
+                self.buffers.sort();
+            }
             self.buffers.next.count = 0;
             self.shade_all(lanes, depth, kind);
             std::mem::swap(&mut self.buffers.rays, &mut self.buffers.next);
@@ -136,10 +139,11 @@ impl Tile<'_> {
         self.tracer.prepared.candidates_in_cone(&centre, radius, &axis, cosine)
     }
 
-    /// What the rays meet.
+    /// What the rays meet, and whether it is the same for all.
     #[inline(always)]
-    fn meet<L: Lanes>(&mut self, lanes: L, among: &Candidates) {
+    fn meet<L: Lanes>(&mut self, lanes: L, among: &Candidates) -> bool {
         let rays = &mut self.buffers.rays;
+        let mut is_another = lanes.mask(0);
         for at in (0..rays.count).step_by(L::WIDTH) {
             let asked = first_lanes(lanes, rays.count - at);
             let register =
@@ -149,8 +153,10 @@ impl Tile<'_> {
             hits.t.store(&mut rays.t[at..]);
             hits.item.store(&mut rays.item[at..]);
             hits.part.store(&mut rays.part[at..]);
+            is_another = is_another | (asked & !hits.item.eq(lanes.splat(rays.item[0])));
         }
         rays.pad();
+        !is_another.any()
     }
 
     /// Shades all rays, those that met the same item together.
@@ -267,10 +273,19 @@ impl Tile<'_> {
     /// The pixels' colours.
     fn end(&mut self) {
         let radiance = &self.buffers.radiance;
-        for (k, pixel) in self.pixels.iter_mut().enumerate() {
-            *pixel = [radiance[0][k], radiance[1][k], radiance[2][k]].map(|v| v as f32);
+        let [red, green, blue] = radiance;
+        let mut all_finite = true;
+        for (((pixel, red), green), blue) in self.pixels.iter_mut().zip(red).zip(green).zip(blue) {
+            *pixel = [*red as f32, *green as f32, *blue as f32];
+            // Nothing times what is infinite or not a number is not a number.
+            all_finite &= (pixel[0] + pixel[1] + pixel[2]) * 0.0 == 0.0;
+        }
+        if all_finite {
+            return;
+        }
+        for (k, pixel) in (0..).zip(self.pixels.iter_mut()) {
             if !pixel.iter().all(|v| v.is_finite()) {
-                self.counts.troubles.not_finite.at(self.window.place(k as u16));
+                self.counts.troubles.not_finite.at(self.window.place(k));
                 *pixel = [0.0; 3];
             }
         }

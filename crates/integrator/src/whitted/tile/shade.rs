@@ -60,6 +60,7 @@ impl Tile<'_> {
         let [first, second] =
             prepared.albedos(item).map(|albedo| Vectors::splat(lanes, &Vector::from(albedo)));
         let Buffers { group, sights, .. } = &mut *self.buffers;
+        sights.is_smooth = false;
         let mut largest = lanes.splat(0.0);
         let (mut behind, mut before) = (lanes.mask(0), lanes.mask(0));
         for at in (0..group.count).step_by(L::WIDTH) {
@@ -77,7 +78,6 @@ impl Tile<'_> {
             point.store(from_mut(&mut sights.point, at));
             points.error.store(&mut sights.error[at..]);
             facet.store(from_mut(&mut sights.facet, at));
-            facet.store(from_mut(&mut sights.shading, at));
 
             let Pattern::Checker(checker) = pattern else {
                 first.store(from_mut(&mut sights.albedo, at));
@@ -104,6 +104,7 @@ impl Tile<'_> {
     fn expand(&mut self, item: u32) -> Around {
         let prepared = &self.tracer.prepared;
         let Buffers { group, sights, .. } = &mut *self.buffers;
+        sights.is_smooth = true;
         let put = |to: &mut Triple, k: usize, v: &Vector| {
             (0..3).for_each(|axis| to[axis][k] = v[axis]);
         };
@@ -175,8 +176,8 @@ impl Tile<'_> {
         for at in (0..self.buffers.group.count).step_by(L::WIDTH) {
             let Buffers { group, sights, .. } = &*self.buffers;
             let direction = load(lanes, &group.direction, at);
-            let (facet, normal) =
-                (load(lanes, &sights.facet, at), load(lanes, &sights.shading, at));
+            let facet = load(lanes, &sights.facet, at);
+            let normal = if sights.is_smooth { load(lanes, &sights.shading, at) } else { facet };
             let mirrored = direction - normal * (dot(&direction, &normal) * 2.0);
             let height = dot(&mirrored, &facet);
             let is_below = height.lt(lanes.splat(0.0));
