@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// Where there are too many.
 pub fn spheres(count: usize) -> Result<Scene, InvalidScene> {
     let mut rng = Rng::with_seed(1);
-    let usual = 0.4 / (count.max(1) as f64).cbrt();
+    let usual = 0.4 / libm::cbrt(count.max(1) as f64);
     let spheres = (0..count).map(|_| {
         let centre = std::array::from_fn(|_| 2.0 * rng.f64() - 1.0);
         Shape::sphere(centre, usual * (0.5 + rng.f64()), Surface::new(Colour::GREY))
