@@ -1,11 +1,11 @@
 //! Spheres and planes that stand by themselves, if they are few: whole registers
 //! of rays are held against each, so that for them no hierarchy is needed.
 
-use crate::Which;
 use crate::lanes::{Lanes, Mask, Real, Vectors};
 use crate::rays::Rays;
 use crate::shapes::plane::{HalfSpace, HalfSpaces};
 use crate::shapes::sphere::{Ball, Balls};
+use crate::{Prepared, Which};
 use lancer_math::{Point, Vector};
 
 /// As many of a kind as there are bits.
@@ -31,6 +31,47 @@ pub struct Candidates {
 impl Candidates {
     /// Everything.
     pub const ALL: Self = Self { balls: u64::MAX, planes: u64::MAX };
+
+    /// Without the planes that rays from `apex` within the pyramid of four directions
+    /// meet only behind another one.
+    ///
+    /// One over the distance of a plane is a linear function of the direction: if that of
+    /// one plane is above 0 and above that of another at the four edges, then
+    /// everywhere between them. Of what is equal but for roundings both stay.
+    #[must_use]
+    pub fn in_front(mut self, prepared: &Prepared, apex: &Point, edges: &[Vector; 4]) -> Self {
+        let listed = prepared.listed();
+        let mut left = self.planes & listed.all().planes;
+        let mut nearness = [[0.0; 4]; MOST_LISTED];
+        let mut roundings = [0.0; MOST_LISTED];
+        let mut rest = left;
+        while let Some(k) = next_bit(&mut rest) {
+            let plane = &listed.planes[k].1;
+            let (normal, to_plane) = (plane.unit(), plane.origin - apex);
+            let ahead = normal.dot(&to_plane);
+            // What is this near may be anywhere.
+            if ahead.abs() <= 1e-9 * (to_plane.norm() + apex.coords.norm()) {
+                return self;
+            }
+            nearness[k] = edges.map(|edge| normal.dot(&edge) / ahead);
+            let size = nearness[k].iter().fold(0.0_f64, |size, n| size.max(n.abs()));
+            roundings[k] = 1e-9 * size + SLACK / ahead.abs();
+        }
+        let mut rest = left;
+        while let Some(k) = next_bit(&mut rest) {
+            let mut others = left & !(1 << k);
+            while let Some(other) = next_bit(&mut others) {
+                let slack = roundings[k] + roundings[other];
+                let mut pairs = nearness[other].iter().zip(&nearness[k]);
+                if pairs.all(|(other, this)| *other > slack && other - this > slack) {
+                    left &= !(1 << k);
+                    break;
+                }
+            }
+        }
+        self.planes = left;
+        self
+    }
 }
 
 /// The nearest hits of a register of rays.
@@ -230,7 +271,7 @@ impl Listed {
             }
         }
         for (k, (_, plane)) in self.planes.iter().enumerate() {
-            let normal = plane.normal / plane.normal.norm();
+            let normal = plane.unit();
             let height = normal.dot(&(centre - plane.origin));
             let slack = SLACK * (centre.coords.norm() + plane.origin.coords.norm()) + radius;
             let toward = if height > slack {
@@ -284,7 +325,7 @@ impl Listed {
             }
         }
         for (k, (item, plane)) in self.planes.iter().enumerate() {
-            let normal = plane.normal / plane.normal.norm();
+            let normal = plane.unit();
             let height = normal.dot(&(centre - plane.origin));
             let size = size + plane.origin.coords.norm();
             let (of_goal, slack) = match goal {

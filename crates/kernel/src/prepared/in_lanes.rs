@@ -47,6 +47,10 @@ pub(super) fn listed(shapes: &[Shape]) -> (Listed, Known) {
 }
 
 impl Prepared {
+    pub(crate) const fn listed(&self) -> &Listed {
+        &self.listed
+    }
+
     /// Whether there is nothing but what is met in lanes.
     fn lists_all(&self) -> bool {
         let Known { spheres, planes } = self.listed_kinds;

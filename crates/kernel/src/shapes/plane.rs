@@ -111,6 +111,11 @@ pub(crate) fn slopes<L: Lanes>(
 }
 
 impl HalfSpace {
+    /// The normal, of length 1.
+    pub(crate) const fn unit(&self) -> Vector {
+        self.frame.axis
+    }
+
     /// In squares of a checker, counted from its origin.
     #[inline(always)]
     pub(crate) fn squares<L: Lanes>(

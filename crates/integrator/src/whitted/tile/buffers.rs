@@ -153,10 +153,11 @@ impl Sights {
 
 /// All that a tile needs, kept by each thread from tile to tile.
 pub(super) struct Buffers {
-    pub(super) rays: Bundle,
-    pub(super) next: Bundle,
+    // Boxed, to be swapped.
+    pub(super) rays: Box<Bundle>,
+    pub(super) next: Box<Bundle>,
     /// Those that met the same item.
-    pub(super) group: Bundle,
+    pub(super) group: Box<Bundle>,
     pub(super) sights: Sights,
     pub(super) radiance: Triple,
     /// The rays in the order of what they met.
@@ -169,9 +170,9 @@ pub(super) struct Buffers {
 impl Buffers {
     pub(super) fn new() -> Box<Self> {
         Box::new(Self {
-            rays: Bundle::new(),
-            next: Bundle::new(),
-            group: Bundle::new(),
+            rays: Box::new(Bundle::new()),
+            next: Box::new(Bundle::new()),
+            group: Box::new(Bundle::new()),
             sights: Sights::new(),
             radiance: [[0.0; ROOM]; 3],
             order: [0; ROOM],

@@ -112,7 +112,8 @@ impl Tile<'_> {
             return Candidates::ALL;
         };
         let cosine = corners.iter().map(|corner| corner.dot(&axis)).fold(1.0, f64::min);
-        self.tracer.prepared.candidates_in_cone(&eye, 0.0, &axis, cosine)
+        let prepared = &self.tracer.prepared;
+        prepared.candidates_in_cone(&eye, 0.0, &axis, cosine).in_front(prepared, &eye, &corners)
     }
 
     fn culls_tiles(&self) -> bool {
@@ -243,7 +244,7 @@ impl Tile<'_> {
             return;
         }
         let Buffers { group, next, .. } = &mut *self.buffers;
-        let Bundle { count, origin: to, direction: way, share: part, pixel, .. } = next;
+        let Bundle { count, origin: to, direction: way, share: part, pixel, .. } = &mut **next;
         pack(&origin, matters, to, *count);
         pack(&direction, matters, way, *count);
         pack(share, matters, part, *count);
