@@ -1,9 +1,14 @@
 //! Where rays meet the shapes of a scene.
 //!
-//! [`Prepared`] is made once from a scene and then asked, one ray at a time,
-//! for the nearest hit, for any hit on a stretch, or for all; a hit is expanded
+//! [`Prepared`] is made once from a scene and then asked, from any thread, for the
+//! nearest hit of a ray, for any hit on a stretch, or for all; a hit is expanded
 //! to a [`SurfacePoint`] only once it is known to be the one that is wanted.
 //! This crate knows no camera, no light and no picture.
+//!
+//! Most is got out of the processor by asking for many rays at once: the
+//! instructions that it has are chosen once for a batch, and rays that come in no
+//! order are followed in one that finds neighbouring shapes near at hand. What
+//! is answered is what each ray would be answered alone, to the last bit.
 //!
 //! ```
 //! use lancer_kernel::{Prepared, Which};
@@ -24,8 +29,23 @@
 //! let through = Ray::new(Point::new(0.5, 0.0, -3.0), Vector::z());
 //! assert!(!prepared.any(&through, 6.0, Which::All));
 //! assert_eq!(prepared.all(&ray, (0.0, 10.0), Which::All).len(), 4);
+//!
+//! // Many at once.
+//! let rays: Vec<Ray> = (0..1000)
+//!     .map(|i| Ray::new(Point::new(f64::from(i) * 0.005 - 2.5, 0.0, -3.0), Vector::z()))
+//!     .collect();
+//! let mut hits = vec![None; rays.len()];
+//! prepared.nearest_each(&rays, f64::INFINITY, &mut hits);
+//! assert_eq!(hits[900].map(|hit| hit.t), Some(2.5));
+//! let mut hidden = vec![false; rays.len()];
+//! prepared.any_each(&rays, 1.0, Which::All, &mut hidden);
+//! assert!(!hidden.contains(&true));
 //! # Ok::<(), lancer_scene::InvalidScene>(())
 //! ```
+//!
+//! Two small programs of that kind are among the examples: `ambient_occlusion`
+//! bakes into a mesh how much of the sky its vertices see, and `line_of_sight`
+//! answers whether hills hide one point from another.
 #![forbid(unsafe_code)]
 
 mod checker;

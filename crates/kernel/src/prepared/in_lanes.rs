@@ -1,16 +1,16 @@
 //! Whole registers of rays against a scene whose own spheres and planes are few.
 
 use super::build::is_finite;
-use super::walk::Known;
-use super::{Any, Nearest, Prepared, Which};
+use super::walk::{Known, Quest};
+use super::{Any, Nearest, Prepared, Question, Which};
 use crate::checker::{self, LaneCells};
-use crate::lanes::{Lanes, MOST, Mask, Real, lanes_of};
+use crate::lanes::{Lanes, MOST, Mask, Real, Work, lanes_of};
 use crate::listed::{Candidates, Goal, LaneHits, LanePoints, Listed, MOST_LISTED};
 use crate::primitive::Primitive;
 use crate::shapes::plane::HalfSpace;
 use crate::shapes::sphere::Ball;
 use crate::{Hit, Rays};
-use lancer_math::{Point, Vector};
+use lancer_math::{Point, Ray, Vector};
 use lancer_scene::{Checker, Geometry, Shape};
 
 /// More spheres than these are met through their hierarchy.
@@ -80,19 +80,31 @@ impl Prepared {
         asked: L::Mask,
         hits: LaneHits<L::Real>,
     ) -> LaneHits<L::Real> {
-        let (mut t, mut item, mut part) = ([0.0; MOST], [0.0; MOST], [0.0; MOST]);
-        hits.t.store(&mut t);
-        hits.item.store(&mut item);
-        for k in lanes_of(asked.bits()) {
-            let known = (item[k] >= 0.0).then(|| Hit { t: t[k], item: item[k] as u32, part: 0 });
-            if let Some(hit) =
-                self.ask(&rays.lane(k), Nearest::beyond(t_max, known), self.listed_kinds).best
-            {
-                (t[k], item[k], part[k]) = (hit.t, f64::from(hit.item), f64::from(hit.part));
-            }
-        }
         let lanes = rays.lanes;
-        LaneHits { t: lanes.load(&t), item: lanes.load(&item), part: lanes.load(&part) }
+        lanes.vectorize(
+            #[inline(always)]
+            || {
+                let (mut t, mut item, mut part) = ([0.0; MOST], [0.0; MOST], [0.0; MOST]);
+                hits.t.store(&mut t);
+                hits.item.store(&mut item);
+                for k in lanes_of(asked.bits()) {
+                    let hit = Hit { t: t[k], item: item[k] as u32, part: 0 };
+                    let known = (item[k] >= 0.0).then_some(hit);
+                    let quest = Nearest::beyond(t_max, known);
+                    if let Some(hit) = self.ask_unlisted(lanes, &rays.lane(k), quest).best {
+                        (t[k], item[k], part[k]) =
+                            (hit.t, f64::from(hit.item), f64::from(hit.part));
+                    }
+                }
+                LaneHits { t: lanes.load(&t), item: lanes.load(&item), part: lanes.load(&part) }
+            },
+        )
+    }
+
+    /// Of the scene's own shapes the listed ones are left out.
+    #[inline(always)]
+    fn ask_unlisted<L: Lanes, Q: Quest>(&self, lanes: L, ray: &Ray, quest: Q) -> Q {
+        Question { prepared: self, ray, quest, known: self.listed_kinds }.run(lanes)
     }
 
     /// Which of the `asked` rays of a register hit something with 0 < t < `t_max`
@@ -122,13 +134,19 @@ impl Prepared {
         which: Which,
         met: L::Mask,
     ) -> L::Mask {
-        let mut bits = met.bits();
-        for k in lanes_of((asked & !met).bits()) {
-            bits |=
-                u32::from(self.ask(&rays.lane(k), Any::new(t_max, which), self.listed_kinds).found)
-                    << k;
-        }
-        rays.lanes.mask(bits)
+        let lanes = rays.lanes;
+        lanes.vectorize(
+            #[inline(always)]
+            || {
+                let mut bits = met.bits();
+                for k in lanes_of((asked & !met).bits()) {
+                    let quest = Any::new(t_max, which);
+                    let found = self.ask_unlisted(lanes, &rays.lane(k), quest).found;
+                    bits |= u32::from(found) << k;
+                }
+                lanes.mask(bits)
+            },
+        )
     }
 
     /// The points of hits that a register of rays has with one item, if it is one
