@@ -22,10 +22,6 @@ pub struct Culling {
     pub shadow_candidates: bool,
     /// Planes that hide no light from anything are not asked.
     pub idle_planes: bool,
-    /// What hid a light last is asked first.
-    pub shadow_cache: bool,
-    /// Parallel planes share a product.
-    pub parallel_planes: bool,
     /// Where a mirror takes all light, none of its own is gathered.
     pub full_mirrors: bool,
     /// The glow of a mirrored ray is found with the shadows of the point that it
@@ -41,8 +37,6 @@ impl Culling {
         tile_candidates: false,
         shadow_candidates: false,
         idle_planes: false,
-        shadow_cache: false,
-        parallel_planes: false,
         full_mirrors: false,
         shared_glow: false,
         sorted_rays: false,
@@ -53,8 +47,6 @@ impl Culling {
         tile_candidates: true,
         shadow_candidates: true,
         idle_planes: true,
-        shadow_cache: true,
-        parallel_planes: true,
         full_mirrors: true,
         shared_glow: true,
         sorted_rays: true,
@@ -64,12 +56,10 @@ impl Culling {
     #[must_use]
     pub fn without_each() -> Vec<(&'static str, Self)> {
         type Switch = fn(&mut Culling) -> &mut bool;
-        let switches: [(&str, Switch); 8] = [
+        let switches: [(&str, Switch); 6] = [
             ("tile_candidates", |c| &mut c.tile_candidates),
             ("shadow_candidates", |c| &mut c.shadow_candidates),
             ("idle_planes", |c| &mut c.idle_planes),
-            ("shadow_cache", |c| &mut c.shadow_cache),
-            ("parallel_planes", |c| &mut c.parallel_planes),
             ("full_mirrors", |c| &mut c.full_mirrors),
             ("shared_glow", |c| &mut c.shared_glow),
             ("sorted_rays", |c| &mut c.sorted_rays),

@@ -2,6 +2,7 @@
 //! its answers are the fixed point that every correction and speed-up is
 //! measured from, and that includes the answers that are wrong.
 
+mod buffers;
 mod bundle;
 pub(crate) mod camera;
 mod checker;
@@ -11,6 +12,7 @@ mod plane;
 mod refusals;
 mod rows;
 mod sphere;
+mod surfaces;
 mod tile;
 mod vectors;
 pub(crate) mod world;
