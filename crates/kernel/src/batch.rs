@@ -14,7 +14,11 @@ impl Prepared {
                 let mut crossings = vec![None; rays.len()];
                 shape.nearest_each(rays, t_max, &mut crossings);
                 for (hit, crossing) in hits.iter_mut().zip(crossings) {
-                    *hit = crossing.map(|crossing| Hit { t: crossing.t, item: 0, part: crossing.part });
+                    *hit = crossing.map(|crossing| Hit {
+                        t: crossing.t,
+                        item: 0,
+                        part: crossing.part,
+                    });
                 }
             }
             None => {

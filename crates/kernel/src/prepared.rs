@@ -286,7 +286,8 @@ struct Builder {
 impl Builder {
     fn shapes(&mut self, shapes: &[Shape], placement: u32) {
         let first = self.shapes.len() as u32;
-        self.shapes.extend(shapes.iter().map(|shape| Ready::new(shape, &KernelSettings::default())));
+        self.shapes
+            .extend(shapes.iter().map(|shape| Ready::new(shape, &KernelSettings::default())));
         self.place(first, shapes.len() as u32, placement);
     }
 

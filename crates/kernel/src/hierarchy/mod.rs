@@ -72,11 +72,6 @@ impl Hierarchy {
         (Self { space, bounds, nodes }, order)
     }
 
-    /// The box around all.
-    pub(crate) const fn bounds(&self) -> Bounds {
-        self.bounds
-    }
-
     /// The places of each leaf.
     pub(crate) fn leaves(&self) -> impl Iterator<Item = Range<usize>> {
         let children =
@@ -84,8 +79,8 @@ impl Hierarchy {
         children.filter(|(_, child)| child.is_leaf()).map(|(_, child)| child.places())
     }
 
-    /// How much memory it takes.
+    /// How much memory its nodes take.
     pub(crate) fn bytes(&self) -> usize {
-        size_of::<Self>() + self.nodes.capacity() * size_of::<Node>()
+        self.nodes.capacity() * size_of::<Node>()
     }
 }

@@ -80,7 +80,8 @@ impl Shear {
     #[inline(always)]
     fn see(&self, vertex: &Point) -> Seen {
         let [i, j, k] = self.axes;
-        let (x, y, z) = (vertex[i] - self.origin[i], vertex[j] - self.origin[j], vertex[k] - self.origin[k]);
+        let (x, y, z) =
+            (vertex[i] - self.origin[i], vertex[j] - self.origin[j], vertex[k] - self.origin[k]);
         Seen { x: x - self.slopes[0] * z, y: y - self.slopes[1] * z, z }
     }
 

@@ -10,11 +10,20 @@ use lancer_math::Ray;
 /// Rays are fetched so many at a time.
 const BLOCK: usize = 64;
 
+/// Rays are sorted so many at a time.
+const TOGETHER: usize = 1 << 20;
+
 /// What is asked of each ray.
 trait Query {
     type Answer: Copy;
 
-    fn answer<L: Lanes>(facets: &Facets, lanes: L, stack: &mut Stack, ray: &Ray, t_max: f64) -> Self::Answer;
+    fn answer<L: Lanes>(
+        facets: &Facets,
+        lanes: L,
+        stack: &mut Stack,
+        ray: &Ray,
+        t_max: f64,
+    ) -> Self::Answer;
 }
 
 struct Nearest;
@@ -24,7 +33,13 @@ impl Query for Nearest {
     type Answer = Option<Crossing>;
 
     #[inline(always)]
-    fn answer<L: Lanes>(facets: &Facets, lanes: L, stack: &mut Stack, ray: &Ray, t_max: f64) -> Option<Crossing> {
+    fn answer<L: Lanes>(
+        facets: &Facets,
+        lanes: L,
+        stack: &mut Stack,
+        ray: &Ray,
+        t_max: f64,
+    ) -> Option<Crossing> {
         facets.nearest_of(lanes, stack, ray, t_max)
     }
 }
@@ -33,7 +48,13 @@ impl Query for Any {
     type Answer = bool;
 
     #[inline(always)]
-    fn answer<L: Lanes>(facets: &Facets, lanes: L, stack: &mut Stack, ray: &Ray, t_max: f64) -> bool {
+    fn answer<L: Lanes>(
+        facets: &Facets,
+        lanes: L,
+        stack: &mut Stack,
+        ray: &Ray,
+        t_max: f64,
+    ) -> bool {
         facets.any_of(lanes, stack, ray, t_max)
     }
 }
@@ -72,7 +93,12 @@ impl<Q: Query> Work for Batch<'_, Q> {
 }
 
 impl Facets {
-    pub(super) fn nearest_each_of(&self, rays: &[Ray], t_max: f64, answers: &mut [Option<Crossing>]) {
+    pub(super) fn nearest_each_of(
+        &self,
+        rays: &[Ray],
+        t_max: f64,
+        answers: &mut [Option<Crossing>],
+    ) {
         self.ask::<Nearest>(rays, t_max, answers);
     }
 
@@ -81,8 +107,12 @@ impl Facets {
     }
 
     fn ask<Q: Query>(&self, rays: &[Ray], t_max: f64, answers: &mut [Q::Answer]) {
-        let order = if self.settings.culling.sorted_rays { self.hierarchy.order_of(rays) } else { None };
-        let order = order.as_deref();
-        dispatch(self.settings.lanes, Batch::<'_, Q> { facets: self, rays, t_max, order, answers });
+        for (rays, answers) in rays.chunks(TOGETHER).zip(answers.chunks_mut(TOGETHER)) {
+            let is_sorted = self.settings.culling.sorted_rays;
+            let order = if is_sorted { self.hierarchy.order_of(rays) } else { None };
+            let order = order.as_deref();
+            let batch = Batch::<'_, Q> { facets: self, rays, t_max, order, answers };
+            dispatch(self.settings.lanes, batch);
+        }
     }
 }

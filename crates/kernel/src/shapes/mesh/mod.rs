@@ -9,12 +9,12 @@ mod leaves;
 
 use super::edges::Shear;
 use super::triangle::{normal_of, point_of};
-use crate::{Crossing, KernelSettings};
 use crate::checker;
 use crate::crossing::Crossings;
 use crate::hierarchy::{Hierarchy, Stack};
 use crate::lanes::{Lanes, Work, dispatch};
 use crate::primitive::{Cell, Contact, Primitive};
+use crate::{Crossing, KernelSettings};
 use lancer_math::{Bounds, Point, Ray, Vector, unit};
 use lancer_scene::{Checker, Mesh};
 use leaves::Leaves;
@@ -50,6 +50,11 @@ impl Facets {
             inside_out: volume < 0.0 && mesh.is_closed(),
             volume: volume.abs(),
         }
+    }
+
+    /// How much memory it takes, apart from the mesh.
+    pub(crate) fn bytes(&self) -> usize {
+        size_of::<Self>() + self.hierarchy.bytes() + self.leaves.bytes()
     }
 
     /// The normal to shade with where the corners have these weights: on the
@@ -183,7 +188,7 @@ impl Work for Each<'_> {
         let Self { facets, ray, from, to, found } = self;
         let shear = Shear::new(ray);
         let filter = facets.leaves.filter(lanes, &shear);
-        facets.hierarchy.visit(
+        facets.hierarchy.visit_any(
             lanes,
             &mut Stack::new(),
             ray,
@@ -253,7 +258,7 @@ impl Facets {
         let shear = Shear::new(ray);
         let filter = self.leaves.filter(lanes, &shear);
         let mut found = false;
-        self.hierarchy.visit(
+        self.hierarchy.visit_any(
             lanes,
             stack,
             ray,
