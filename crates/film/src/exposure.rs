@@ -60,13 +60,22 @@ impl LightMeter {
     /// Takes in these pixels.
     pub fn see(&mut self, pixels: &[[f32; 3]]) {
         let steps = Steps::table();
+        // Neighbours are mostly alike, and adding to the number that was added to just
+        // now has to wait for that.
+        let (mut last, mut run) = (0, 0);
         for pixel in pixels {
             // As `Film::peak` has it.
             let peak = pixel.iter().fold(0.0, |peak, v| if *v > peak { *v } else { peak });
             if peak > 0.0 && peak.is_finite() {
-                self.counts[(steps.of(peak) - FEWEST) as usize] += 1;
+                let index = (steps.of(peak) - FEWEST) as usize;
+                if index != last {
+                    self.counts[last] += run;
+                    (last, run) = (index, 0);
+                }
+                run += 1;
             }
         }
+        self.counts[last] += run;
     }
 
     /// The exposure for all pixels that it has seen, in stops.

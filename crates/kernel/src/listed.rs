@@ -152,9 +152,9 @@ impl Listed {
             let (item, plane) = &self.planes[k];
             let (ahead, slope) = HalfSpaces::splat(lanes, plane).slopes(rays);
             // Of different signs they are behind.
-            let is_ahead = same_sign(ahead, slope, zero);
-            if is_ahead.any() {
-                best.consider(ahead / slope, lanes.splat(f64::from(*item)), is_ahead);
+            let may = same_sign(ahead, slope, zero) & ahead.abs().lt(within(slope, best.t));
+            if may.any() {
+                best.consider(ahead / slope, lanes.splat(f64::from(*item)), may);
             }
         }
         let mut asked = among.balls & all.balls;
@@ -190,8 +190,8 @@ impl Listed {
         let mut asked = among.planes & of.planes;
         while let Some(k) = next_bit(&mut asked) {
             let (ahead, slope) = HalfSpaces::splat(lanes, &self.planes[k].1).slopes(rays);
-            let is_ahead = same_sign(ahead, slope, zero);
-            if is_ahead.any() {
+            let may = same_sign(ahead, slope, zero) & ahead.abs().lt(within(slope, t_max));
+            if may.any() {
                 let t = ahead / slope;
                 met = met | (t.gt(zero) & t.lt(t_max));
             }
@@ -355,6 +355,14 @@ impl<R: Real> LaneHits<R> {
         self.t = nearer.select(t, self.t);
         self.item = nearer.select(item, self.item);
     }
+}
+
+/// How far ahead a plane is, at least, that is `t` away or farther along a ray of that
+/// slope: so that nothing is divided where no ray can reach it.
+#[inline(always)]
+fn within<R: Real>(slope: R, t: R) -> R {
+    // More than the product and the quotient may be rounded, and lose near 0.
+    slope.abs() * (t * (1.0 + 4.0 * f64::EPSILON)) + 1e-300
 }
 
 /// Whether both are positive or both negative.

@@ -128,6 +128,8 @@ pub(super) struct Sights {
     pub(super) albedo: Triple,
     /// The share of the matte part in the pixel, by colour.
     pub(super) matte: Triple,
+    /// Whether one of them is above 0 everywhere.
+    pub(super) all_matter: bool,
     /// The light that falls on it.
     pub(super) light: Triple,
     /// Whether that is the same for all colours, and only the first is kept.
@@ -145,6 +147,7 @@ impl Sights {
             shading: NONE,
             albedo: NONE,
             matte: NONE,
+            all_matter: false,
             light: NONE,
             is_grey: true,
         }

@@ -61,10 +61,11 @@ impl Tile<'_> {
         };
         let along = dot(&way, &shading);
         let is_lit = along.gt(zero) & dot(&way, &facet).gt(zero);
-        let matters = !(lanes.load(&sights.matte[0][at..]).eq(zero)
-            & lanes.load(&sights.matte[1][at..]).eq(zero)
-            & lanes.load(&sights.matte[2][at..]).eq(zero));
-        let asked = first_lanes(lanes, group.count - at) & is_lit & matters;
+        let mut asked = first_lanes(lanes, group.count - at) & is_lit;
+        if !sights.all_matter {
+            let matte = load(lanes, &sights.matte, at);
+            asked = asked & !(matte.x.eq(zero) & matte.y.eq(zero) & matte.z.eq(zero));
+        }
         if !asked.any() {
             return;
         }

@@ -132,13 +132,17 @@ impl Tile<'_> {
     #[inline(always)]
     fn weigh<L: Lanes>(&mut self, lanes: L, matte: f64) {
         let Buffers { group, sights, .. } = &mut *self.buffers;
-        for axis in 0..3 {
-            for at in (0..group.count).step_by(L::WIDTH) {
-                let share = lanes.load(&group.share[axis][at..]) * matte;
-                let share = share * lanes.load(&sights.albedo[axis][at..]);
-                share.store(&mut sights.matte[axis][at..]);
-            }
+        let zero = lanes.splat(0.0);
+        let mut some_do_not = lanes.mask(0);
+        for at in (0..group.count).step_by(L::WIDTH) {
+            let share = load(lanes, &group.share, at) * lanes.splat(matte);
+            let albedo = load(lanes, &sights.albedo, at);
+            let share =
+                Vectors { x: share.x * albedo.x, y: share.y * albedo.y, z: share.z * albedo.z };
+            some_do_not = some_do_not | (share.x.eq(zero) & share.y.eq(zero) & share.z.eq(zero));
+            share.store(from_mut(&mut sights.matte, at));
         }
+        sights.all_matter = !some_do_not.any();
     }
 
     /// Adds what light makes of the matte part.
