@@ -77,7 +77,7 @@ impl Binary {
     const EMPTY: Self = Self { bounds: Item::NONE, first: 0, count: 0, second: 0, choices: [0; 9] };
 }
 
-const BINS: usize = 16;
+const BINS: usize = 32;
 
 /// Not more than this are never split.
 const FEW: usize = 2;

@@ -104,7 +104,8 @@ impl Shear {
         let weights = [areas[0] / sum, areas[1] / sum, areas[2] / sum];
         let depth = weights[0] * a.z + weights[1] * b.z + weights[2] * c.z;
         // Between those of its corners, also where the ray grazes it.
-        let depth = depth.min(a.z.max(b.z).max(c.z)).max(a.z.min(b.z).min(c.z));
+        let depth = least(depth, most(most(a.z, b.z), c.z));
+        let depth = most(depth, least(least(a.z, b.z), c.z));
         Some(Meeting { t: self.in_box(corners, depth / self.longest), weights })
     }
 }
@@ -123,11 +124,24 @@ impl Shear {
                 let a = (corners[0][axis] - origin) * inverse;
                 let b = (corners[1][axis] - origin) * inverse;
                 let c = (corners[2][axis] - origin) * inverse;
-                t = t.min(a.max(b).max(c)).max(a.min(b).min(c));
+                t = least(t, most(most(a, b), c));
+                t = most(t, least(least(a, b), c));
             }
         }
         t
     }
+}
+
+/// The smaller one, and the first where they cannot be compared.
+#[inline(always)]
+fn least(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
+}
+
+/// The larger one, and the first where they cannot be compared.
+#[inline(always)]
+fn most(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
 }
 
 /// Twice that of the triangle of the ray, p and q.

@@ -8,7 +8,7 @@
 //! products unless it makes them equal; the others, hardly ever two, are met one by
 //! one as `edges.rs` decides.
 
-use crate::hierarchy::{Hierarchy, LEAF};
+use crate::hierarchy::Hierarchy;
 use crate::lanes::{Answers, Doubles, Eight, lanes_of};
 use crate::shapes::edges::{Meeting, Shear};
 use lancer_math::Point;
@@ -39,7 +39,7 @@ impl Leaves {
         let all_single = (0..order.len()).all(|place| {
             mesh.corners(order[place] as usize).iter().flat_map(|p| p.iter()).all(|&x| is_single(x))
         });
-        let length = ROWS * order.len() + LEAF - 1;
+        let length = ROWS * order.len() + READABLE;
         let rows = if all_single {
             let mut rows = vec![0.0; length];
             for places in hierarchy.leaves() {
@@ -86,58 +86,59 @@ impl Leaves {
         places: Range<usize>,
         mut met: impl FnMut(u32, Meeting),
     ) {
-        let bits = match &self.rows {
-            Rows::Single(rows) => filter.candidates(
-                &places,
-                #[inline(always)]
-                |at| {
-                    rows.get(at..)
-                        .and_then(<[f32]>::first_chunk)
-                        .map_or(filter.origin[0], |row| filter.lanes.widened(row))
-                },
-            ),
-            Rows::Double(rows) => filter.candidates(
-                &places,
-                #[inline(always)]
-                |at| {
-                    rows.get(at..)
-                        .and_then(<[f64]>::first_chunk)
-                        .map_or(filter.origin[0], |row| filter.lanes.doubles(row))
-                },
-            ),
-        };
-        for lane in lanes_of(bits) {
-            let corners = self.corners(&places, lane);
-            if let Some(meeting) = shear.meet(&corners) {
-                met(self.order[places.start + lane], meeting);
+        let first = ROWS * places.start;
+        // Bits that are known to the compiler, so that rows are read unchecked.
+        let count = places.len() & 15;
+        match &self.rows {
+            Rows::Single(rows) => {
+                let Some(leaf) = rows.get(first..).and_then(<[f32]>::first_chunk) else { return };
+                let candidates = filter.candidates(
+                    count,
+                    #[inline(always)]
+                    |at| filter.lanes.widened(eight(leaf, at)),
+                );
+                for lane in lanes_of(candidates) {
+                    if let Some(meeting) = shear.meet(&corners(leaf, count, lane)) {
+                        met(self.order[places.start + lane], meeting);
+                    }
+                }
+            }
+            Rows::Double(rows) => {
+                let Some(leaf) = rows.get(first..).and_then(<[f64]>::first_chunk) else { return };
+                let candidates = filter.candidates(
+                    count,
+                    #[inline(always)]
+                    |at| filter.lanes.doubles(eight(leaf, at)),
+                );
+                for lane in lanes_of(candidates) {
+                    if let Some(meeting) = shear.meet(&corners(leaf, count, lane)) {
+                        met(self.order[places.start + lane], meeting);
+                    }
+                }
             }
         }
     }
-
-    #[inline(always)]
-    fn corners(&self, places: &Range<usize>, lane: usize) -> [Point; 3] {
-        let (first, count) = (ROWS * places.start + lane, places.len());
-        [
-            self.rows.corner(first, count),
-            self.rows.corner(first + 3 * count, count),
-            self.rows.corner(first + 6 * count, count),
-        ]
-    }
 }
 
-impl Rows {
-    #[inline(always)]
-    fn corner(&self, first: usize, step: usize) -> Point {
-        Point::new(self.number(first), self.number(first + step), self.number(first + 2 * step))
-    }
+/// So many numbers can be read from the beginning of a leaf on: more than are
+/// its own, and as many as 15 rows of 15 and one more reach.
+const READABLE: usize = 256;
 
-    #[inline(always)]
-    fn number(&self, at: usize) -> f64 {
-        match self {
-            Self::Single(rows) => f64::from(rows[at]),
-            Self::Double(rows) => rows[at],
-        }
-    }
+/// Eight numbers of a leaf.
+#[inline(always)]
+fn eight<T>(leaf: &[T; READABLE], at: usize) -> &[T; 8] {
+    leaf[at..].first_chunk().unwrap_or_else(#[inline(always)] || unreachable!())
+}
+
+/// The corners of a leaf's triangle.
+#[inline(always)]
+fn corners<T: Copy + Into<f64>>(leaf: &[T; READABLE], count: usize, lane: usize) -> [Point; 3] {
+    let number = |row: usize| leaf[(row * count + lane) % READABLE].into();
+    [
+        Point::new(number(0), number(1), number(2)),
+        Point::new(number(3), number(4), number(5)),
+        Point::new(number(6), number(7), number(8)),
+    ]
 }
 
 /// The two products whose order says on which side of the line from p to q the ray
@@ -167,12 +168,11 @@ pub(super) struct Filter<E: Eight> {
 impl<E: Eight> Filter<E> {
     /// Those that the ray may go through.
     #[inline(always)]
-    fn candidates(&self, places: &Range<usize>, row: impl Fn(usize) -> E::Doubles) -> u32 {
-        let (first, count) = (ROWS * places.start, places.len());
+    fn candidates(&self, count: usize, row: impl Fn(usize) -> E::Doubles) -> u32 {
         let [a, b, c] = [
-            self.see(first, count, &row),
-            self.see(first + 3 * count, count, &row),
-            self.see(first + 6 * count, count, &row),
+            self.see(0, count, &row),
+            self.see(3, count, &row),
+            self.see(6, count, &row),
         ];
         let [i, j, k] = [products(b, c), products(c, a), products(a, b)];
         let left = i[0].ge(i[1]) & j[0].ge(j[1]) & k[0].ge(k[1]);
@@ -184,13 +184,13 @@ impl<E: Eight> Filter<E> {
     #[inline(always)]
     fn see(
         &self,
-        first: usize,
+        corner: usize,
         count: usize,
         row: &impl Fn(usize) -> E::Doubles,
     ) -> [E::Doubles; 2] {
-        let x = row(first + self.axes[0] * count) - self.origin[0];
-        let y = row(first + self.axes[1] * count) - self.origin[1];
-        let z = row(first + self.axes[2] * count) - self.origin[2];
+        let x = row((corner + (self.axes[0] & 3)) * count) - self.origin[0];
+        let y = row((corner + (self.axes[1] & 3)) * count) - self.origin[1];
+        let z = row((corner + (self.axes[2] & 3)) * count) - self.origin[2];
         [x - self.slopes[0] * z, y - self.slopes[1] * z]
     }
 }

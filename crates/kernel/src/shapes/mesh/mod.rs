@@ -12,13 +12,13 @@ use super::triangle::{normal_of, point_of};
 use crate::checker;
 use crate::crossing::Crossings;
 use crate::hierarchy::{Hierarchy, Stack};
-use crate::lanes::{Lanes, Work, dispatch};
+use crate::lanes::{Eight, Lanes, Work, dispatch};
 use crate::primitive::{Cell, Contact, Primitive};
 use crate::{Crossing, KernelSettings};
 use lancer_math::{Bounds, Point, Ray, Vector, unit};
 use lancer_scene::{Checker, Mesh};
-use leaves::Leaves;
-use std::ops::ControlFlow;
+use leaves::{Filter, Leaves};
+use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
 
 #[derive(Debug)]
@@ -214,6 +214,31 @@ impl Work for Each<'_> {
 }
 
 impl Facets {
+    /// The nearest of what is known and of a leaf's triangles on the ray, of those at the
+    /// same t the first one.
+    #[inline(always)]
+    fn nearer<E: Eight>(
+        &self,
+        filter: &Filter<E>,
+        shear: &Shear,
+        places: Range<usize>,
+        mut nearest: Crossing,
+    ) -> Crossing {
+        self.leaves.each(
+            filter,
+            shear,
+            places,
+            #[inline(always)]
+            |triangle, met| {
+                let is_first = met.t == nearest.t && triangle < nearest.part;
+                if met.t > 0.0 && (met.t < nearest.t || is_first) {
+                    nearest = Crossing { t: met.t, part: triangle };
+                }
+            },
+        );
+        nearest
+    }
+
     #[inline(always)]
     pub(crate) fn nearest_of<L: Lanes>(
         &self,
@@ -233,20 +258,7 @@ impl Facets {
             (0.0, t_max),
             #[inline(always)]
             |places, _| {
-                self.leaves.each(
-                    &filter,
-                    &shear,
-                    places,
-                    #[inline(always)]
-                    |triangle, met| {
-                        // Of those at the same t the first one.
-                        let is_nearer =
-                            met.t < nearest.t || met.t == nearest.t && triangle < nearest.part;
-                        if met.t > 0.0 && is_nearer {
-                            nearest = Crossing { t: met.t, part: triangle };
-                        }
-                    },
-                );
+                nearest = self.nearer(&filter, &shear, places, nearest);
                 ControlFlow::Continue(nearest.t)
             },
         );
@@ -263,6 +275,7 @@ impl Facets {
     ) -> bool {
         let shear = Shear::new(ray);
         let filter = self.leaves.filter(lanes, &shear);
+        let beyond = Crossing { t: t_max, part: 0 };
         let mut found = false;
         self.hierarchy.visit_any(
             lanes,
@@ -272,13 +285,7 @@ impl Facets {
             (0.0, t_max),
             #[inline(always)]
             |places, to| {
-                self.leaves.each(
-                    &filter,
-                    &shear,
-                    places,
-                    #[inline(always)]
-                    |_, met| found |= met.t > 0.0 && met.t < t_max,
-                );
+                found = self.nearer(&filter, &shear, places, beyond).t < t_max;
                 if found { ControlFlow::Break(()) } else { ControlFlow::Continue(to) }
             },
         );
