@@ -3,12 +3,10 @@
 //! direction of each ray.
 //!
 //! ```sh
-//! cargo run --release -p lancer-kernel --example trace_rays -- MESH RAYS [TRIANGLES]
+//! cargo run --release -p lancer-kernel --example trace_rays -- MESH RAYS
 //! ```
 //!
-//! Prints the best of five times, on one thread, for nearest and for any hits; and
-//! how many rays meet another triangle than TRIANGLES says, a file of one number
-//! for each ray (-1: none).
+//! Prints the best of five times, on one thread, for nearest and for any hits.
 
 use lancer_kernel::{Prepared, Which};
 use lancer_math::{Point, Ray, Vector};
@@ -18,9 +16,7 @@ use std::time::Instant;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let [mesh, rays, rest @ ..] = &arguments[..] else {
-        return Err("MESH RAYS [TRIANGLES]".into());
-    };
+    let [mesh, rays] = &arguments[..] else { return Err("expected MESH RAYS".into()) };
     let corners: Vec<[f64; 3]> = words(mesh)?
         .as_chunks::<3>()
         .0
@@ -56,11 +52,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("{met} of {} rays meet a triangle", rays.len());
     assert!(hits.iter().zip(&answers).all(|(hit, any)| hit.is_some() == *any));
 
-    if let [triangles] = rest {
-        let found = hits.iter().map(|hit| hit.map_or(-1, |hit| hit.part as i32));
-        let others = words(triangles)?.into_iter().map(i32::from_le_bytes);
-        println!("{} differ", found.zip(others).filter(|(a, b)| a != b).count());
-    }
     Ok(())
 }
 

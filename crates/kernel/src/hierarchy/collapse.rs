@@ -69,11 +69,11 @@ pub(super) fn collapse(binary: &[Binary]) -> Vec<Node> {
     }
     // Which binary node is to become which wide one.
     let mut open = vec![(0_usize, 0_usize)];
-    let mut trees = Vec::new();
+    let (mut trees, mut kept) = (Vec::new(), Vec::new());
     while let Some((from, to)) = open.pop() {
         trees.clear();
         trees.push((from, CHILDREN));
-        let mut slot = 0;
+        kept.clear();
         while let Some((index, mut count)) = trees.pop() {
             let node = &binary[index];
             while count > 1 && node.choices[count] == 0 {
@@ -83,8 +83,14 @@ pub(super) fn collapse(binary: &[Binary]) -> Vec<Node> {
                 let first = usize::from(node.choices[count]);
                 trees.push((index + node.second as usize, count - first));
                 trees.push((index + 1, first));
-                continue;
+            } else {
+                kept.push(index);
             }
+        }
+        // The largest first: there a ray most likely meets something.
+        kept.sort_by(|a, b| binary[*b].bounds.area().total_cmp(&binary[*a].bounds.area()));
+        for (slot, &index) in kept.iter().enumerate() {
+            let node = &binary[index];
             let child = if is_leaf(node) {
                 leaf(node)
             } else {
@@ -93,9 +99,9 @@ pub(super) fn collapse(binary: &[Binary]) -> Vec<Node> {
                 Child::node(nodes.len() as u32 - 1)
             };
             nodes[to].set(slot, node.bounds.sides(), child);
-            slot += 1;
         }
     }
+    nodes.shrink_to_fit();
     nodes
 }
 

@@ -93,8 +93,8 @@ impl Hierarchy {
         children.filter(|(_, child)| child.is_leaf()).map(|(_, child)| child.places())
     }
 
-    /// How much memory it takes.
+    /// How much memory its nodes take.
     pub(crate) fn bytes(&self) -> usize {
-        size_of::<Self>() + self.nodes.capacity() * size_of::<Node>()
+        self.nodes.capacity() * size_of::<Node>()
     }
 }

@@ -1,5 +1,5 @@
 use super::node::{Space, power_below};
-use lancer_math::{Bounds, Ray};
+use lancer_math::{Bounds, Ray, Vector};
 
 /// A ray made ready to be held against boxes in singles, so that no box that it
 /// goes through is lost.
@@ -52,7 +52,11 @@ impl Query {
         (from, to): (f64, f64),
     ) -> Option<Self> {
         let d = ray.direction;
-        let start = enter(bounds, ray, margin, from, to)?;
+        let inverse = d.map(
+            #[inline(always)]
+            |c| 1.0 / c,
+        );
+        let start = enter(bounds, ray, &inverse, margin, from, to)?;
         let from_centre = ray.origin - space.centre;
         let step = d * start;
         let far = from_centre.abs() + step.abs();
@@ -78,9 +82,10 @@ impl Query {
         };
         for axis in 0..3 {
             query.side[axis] = u8::from(d[axis].is_sign_negative());
-            let along = d[axis] / power;
-            let least = STANDING.copysign(along);
-            let inverse = 1.0 / if along.abs() < STANDING { least } else { along };
+            let along = inverse[axis];
+            let size = along.abs() * power;
+            let inverse = if size < 1.0 / STANDING { size } else { 1.0 / STANDING };
+            let inverse = inverse.copysign(along);
             query.inverse[0][axis] = (inverse * (1.0 - MARGIN)) as f32;
             query.inverse[1][axis] = (inverse * (1.0 + MARGIN)) as f32;
             let o = origin[axis];
@@ -110,27 +115,30 @@ impl Query {
     }
 }
 
-/// More than one, by more than the roundings of a difference, an inverse and a
-/// product can make a far side seem nearer.
-const ROUNDED_UP: f64 = 1.0 + 8.0 * f64::EPSILON;
-
 /// From where on the ray is in the box, if it is so between `from` and `to`.
 ///
 /// Along an axis in which the ray does not move, it is between the sides
 /// everywhere or nowhere; exactly on one, infinity times 0 is not a number
 /// and, as it is compared here, does not narrow the interval.
 #[inline(always)]
-fn enter(bounds: &Bounds, ray: &Ray, margin: f64, from: f64, to: f64) -> Option<f64> {
+fn enter(
+    bounds: &Bounds,
+    ray: &Ray,
+    inverse: &Vector,
+    margin: f64,
+    from: f64,
+    to: f64,
+) -> Option<f64> {
     let (mut near, mut far) = (from, to);
     for axis in 0..3 {
-        let inverse = 1.0 / ray.direction[axis];
+        let inverse = inverse[axis];
         let low = (bounds.min[axis] - margin - ray.origin[axis]) * inverse;
         let high = (bounds.max[axis] + margin - ray.origin[axis]) * inverse;
         // By the bit: 1 / -0 is minus infinity.
         let (enter, leave) = if inverse.is_sign_negative() { (high, low) } else { (low, high) };
         // Outward: away from where the ray is.
-        let enter = if enter > 0.0 { enter / ROUNDED_UP } else { enter * ROUNDED_UP };
-        let leave = if leave > 0.0 { leave * ROUNDED_UP } else { leave / ROUNDED_UP };
+        let enter = enter * (1.0 - LOST.copysign(enter));
+        let leave = leave * (1.0 + LOST.copysign(leave));
         near = if enter > near { enter } else { near };
         far = if leave < far { leave } else { far };
     }

@@ -16,7 +16,7 @@ const KEY_BITS: u32 = 3 * BITS + 3;
 
 /// Bits that are sorted by at a time.
 const DIGIT: u32 = 10;
-const _: () = assert!(KEY_BITS % DIGIT == 0);
+const _: () = assert!(KEY_BITS.is_multiple_of(DIGIT));
 
 impl Hierarchy {
     /// The numbers of the rays in an order in which they are better followed;

@@ -66,6 +66,34 @@ impl Hierarchy {
         stack: &mut Stack,
         ray: &Ray,
         margin: f64,
+        stretch: (f64, f64),
+        meet: impl FnMut(Range<usize>, f64) -> ControlFlow<(), f64>,
+    ) {
+        self.walk::<true, E>(lanes, stack, ray, margin, stretch, meet);
+    }
+
+    /// The same in no order of distance: of a node's children the largest first, where
+    /// the ray most likely meets something.
+    #[inline(always)]
+    pub(crate) fn visit_any<E: Eight>(
+        &self,
+        lanes: E,
+        stack: &mut Stack,
+        ray: &Ray,
+        margin: f64,
+        stretch: (f64, f64),
+        meet: impl FnMut(Range<usize>, f64) -> ControlFlow<(), f64>,
+    ) {
+        self.walk::<false, E>(lanes, stack, ray, margin, stretch, meet);
+    }
+
+    #[inline(always)]
+    fn walk<const ORDERED: bool, E: Eight>(
+        &self,
+        lanes: E,
+        stack: &mut Stack,
+        ray: &Ray,
+        margin: f64,
         (from, to): (f64, f64),
         mut meet: impl FnMut(Range<usize>, f64) -> ControlFlow<(), f64>,
     ) {
@@ -101,6 +129,24 @@ impl Hierarchy {
                     .min(axes[1].leave(lanes, y))
                     .min(axes[2].leave(lanes, z).min(lanes.single(reach)));
                 let mut bits = enter.le(leave);
+                if !ORDERED && bits != 0 {
+                    let slot = bits.trailing_zeros() as usize & (CHILDREN - 1);
+                    bits &= bits - 1;
+                    if bits != 0 {
+                        let mut distances = [0.0; CHILDREN];
+                        enter.store(&mut distances);
+                        // The first one, the largest, is to be on top.
+                        while bits != 0 {
+                            let last = (31 - bits.leading_zeros()) as usize & (CHILDREN - 1);
+                            bits ^= 1 << last;
+                            stack[height & (ENTRIES - 1)] =
+                                entry(distances[last], node.children[last]);
+                            height += 1;
+                        }
+                    }
+                    current = node.children[slot];
+                    continue;
+                }
                 if bits != 0 {
                     let mut distances = [0.0; CHILDREN];
                     enter.store(&mut distances);

@@ -10,6 +10,9 @@ use lancer_math::Ray;
 /// Rays are fetched so many at a time.
 const BLOCK: usize = 64;
 
+/// Rays are sorted so many at a time.
+const TOGETHER: usize = 1 << 20;
+
 /// What is asked of each ray.
 trait Query {
     type Answer: Copy;
@@ -104,9 +107,12 @@ impl Facets {
     }
 
     fn ask<Q: Query>(&self, rays: &[Ray], t_max: f64, answers: &mut [Q::Answer]) {
-        let order =
-            if self.settings.culling.sorted_rays { self.hierarchy.order_of(rays) } else { None };
-        let order = order.as_deref();
-        dispatch(self.settings.lanes, Batch::<'_, Q> { facets: self, rays, t_max, order, answers });
+        for (rays, answers) in rays.chunks(TOGETHER).zip(answers.chunks_mut(TOGETHER)) {
+            let is_sorted = self.settings.culling.sorted_rays;
+            let order = if is_sorted { self.hierarchy.order_of(rays) } else { None };
+            let order = order.as_deref();
+            let batch = Batch::<'_, Q> { facets: self, rays, t_max, order, answers };
+            dispatch(self.settings.lanes, batch);
+        }
     }
 }

@@ -58,10 +58,10 @@ impl Leaves {
 
     pub(super) fn bytes(&self) -> usize {
         let rows = match &self.rows {
-            Rows::Single(rows) => size_of_val(&rows[..]),
-            Rows::Double(rows) => size_of_val(&rows[..]),
+            Rows::Single(rows) => rows.capacity() * size_of::<f32>(),
+            Rows::Double(rows) => rows.capacity() * size_of::<f64>(),
         };
-        rows + size_of_val(&self.order[..])
+        rows + self.order.capacity() * size_of::<u32>()
     }
 
     /// The ray made ready to be held against the triangles of a leaf.

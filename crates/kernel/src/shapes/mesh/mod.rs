@@ -188,7 +188,7 @@ impl Work for Each<'_> {
         let Self { facets, ray, from, to, found } = self;
         let shear = Shear::new(ray);
         let filter = facets.leaves.filter(lanes, &shear);
-        facets.hierarchy.visit(
+        facets.hierarchy.visit_any(
             lanes,
             &mut Stack::new(),
             ray,
@@ -264,7 +264,7 @@ impl Facets {
         let shear = Shear::new(ray);
         let filter = self.leaves.filter(lanes, &shear);
         let mut found = false;
-        self.hierarchy.visit(
+        self.hierarchy.visit_any(
             lanes,
             stack,
             ray,

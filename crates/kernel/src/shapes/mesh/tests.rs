@@ -1,4 +1,6 @@
 use super::*;
+use crate::Culling;
+use crate::lanes::Width;
 use crate::shapes::testing::{
     all, assert_sound, check_leaving, check_pairs, check_scaling, direction, ray, ray_to,
 };
@@ -263,4 +265,91 @@ fn scaled_by_powers_of_two_the_bits_are_the_same() {
         },
         &rays,
     );
+}
+
+/// What each width says of single rays and of batches, sorted or not, is what a loop
+/// over all triangles says: the first of those at the same t.
+#[test]
+fn batches_and_widths_do_not_matter() {
+    for (mesh, rays) in [(ball(3, 140.0), 3000), (heights(24), 3000)] {
+        let mut rng = Rng::with_seed(21);
+        let mut rays: Vec<Ray> = (0..rays).map(|_| aimed(&mesh, &mut rng)).collect();
+        for odd in [[0.0; 3], [f64::NAN, 0.0, 1.0], [f64::INFINITY, 0.0, 0.0]] {
+            rays.push(ray([0.0; 3], odd));
+            rays.push(ray(odd, [0.0, 0.0, 1.0]));
+        }
+        for t_max in [f64::INFINITY, 1.0, 0.3] {
+            let expected: Vec<Option<Crossing>> =
+                rays.iter().map(|ray| first_of_all(&mesh, ray, t_max)).collect();
+            let met = expected.iter().flatten().count();
+            assert!(met > 10, "{met}");
+            for lanes in Width::available() {
+                for culling in [Culling::ALL, Culling::NONE] {
+                    let shape = Facets::new(&mesh, &KernelSettings { lanes, culling });
+                    let mut nearest = vec![None; rays.len()];
+                    shape.nearest_each(&rays, t_max, &mut nearest);
+                    assert_eq!(nearest, expected, "{}", lanes.name());
+                    let mut any = vec![false; rays.len()];
+                    shape.any_each(&rays, t_max, &mut any);
+                    assert!(any.iter().zip(&expected).all(|(any, one)| *any == one.is_some()));
+                    for (ray, expected) in rays.iter().zip(&expected) {
+                        assert_eq!(shape.nearest(ray, t_max), *expected, "{ray:?}");
+                        assert_eq!(shape.any(ray, t_max), expected.is_some(), "{ray:?}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn first_of_all(mesh: &Mesh, ray: &Ray, t_max: f64) -> Option<Crossing> {
+    let shear = Shear::new(ray);
+    let mut first: Option<Crossing> = None;
+    for triangle in 0..mesh.triangle_count() {
+        if let Some(met) = shear.meet(&mesh.corners(triangle))
+            && met.t > 0.0
+            && met.t < first.map_or(t_max, |first| first.t)
+        {
+            first = Some(Crossing { t: met.t, part: triangle as u32 });
+        }
+    }
+    first
+}
+
+/// A field of whole heights, twice: each triangle is there two times.
+fn heights(side: u32) -> Arc<Mesh> {
+    let mut rng = Rng::with_seed(4);
+    let mut positions = Vec::new();
+    for y in 0..side {
+        for x in 0..side {
+            positions.push([f64::from(x), f64::from(y), f64::from(rng.u8(0..5))].map(|c| c / 8.0));
+        }
+    }
+    let mut triangles = Vec::new();
+    for _ in 0..2 {
+        for a in (0..side - 1).flat_map(|y| (0..side - 1).map(move |x| y * side + x)) {
+            triangles.extend([[a, a + 1, a + side], [a + 1, a + side + 1, a + side]]);
+        }
+    }
+    Arc::new(Mesh::new(positions, triangles).unwrap())
+}
+
+/// All that a mesh of many triangles keeps, the scene's own part included.
+#[test]
+fn memory_is_small() {
+    for (scale, most) in [(1.0, 100), (0.1, 145)] {
+        let side = 220_u32;
+        let height = |x: u32, y: u32| f64::from(x * y % 7);
+        let positions = (0..side)
+            .flat_map(|y| (0..side).map(move |x| [f64::from(x), f64::from(y), height(x, y)]))
+            .map(|p| p.map(|c| c * scale))
+            .collect();
+        let corners = (0..side - 1).flat_map(|y| (0..side - 1).map(move |x| y * side + x));
+        let triangles =
+            corners.flat_map(|a| [[a, a + 1, a + side], [a + 1, a + side + 1, a + side]]).collect();
+        let mesh = Arc::new(Mesh::new(positions, triangles).unwrap());
+        let shape = Facets::new(&mesh, &KernelSettings::default());
+        let bytes = (shape.bytes() + mesh.bytes()) / mesh.triangle_count();
+        assert!(bytes <= most, "{bytes} bytes a triangle");
+    }
 }
