@@ -241,7 +241,7 @@ fn octahedron() -> Arc<Mesh> {
 
 /// Groups of groups of groups, most of which stand in several places.
 fn scene(seed: u64) -> Scene {
-    let mut choice = Choice { rng: Rng::with_seed(seed), whole: seed % 2 == 0 };
+    let mut choice = Choice { rng: Rng::with_seed(seed), whole: seed.is_multiple_of(2) };
     let mut groups: Vec<Arc<Group>> = Vec::new();
     for _ in 0..choice.rng.usize(0..7) {
         let shapes = (0..choice.rng.usize(0..4)).map(|_| choice.shape()).collect();
@@ -286,7 +286,7 @@ fn groups_are_met_as_if_they_were_written_out() {
         for width in Width::available() {
             let settings = KernelSettings { lanes: width, culling: Culling::ALL };
             let prepared = Prepared::with(&scene, &settings);
-            let mut choice = Choice { rng: Rng::with_seed(!case), whole: case % 2 == 0 };
+            let mut choice = Choice { rng: Rng::with_seed(!case), whole: case.is_multiple_of(2) };
             for _ in 0..40 {
                 let ray = ray(&mut choice);
                 let t_max = if choice.rng.bool() { f64::INFINITY } else { choice.number(9).abs() };

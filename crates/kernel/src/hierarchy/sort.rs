@@ -9,14 +9,14 @@ use lancer_math::{Bounds, Ray};
 const FEW: usize = 256;
 
 /// Bits of a place along each axis.
-const BITS: u32 = 5;
+const BITS: u32 = 9;
 
 /// Bits of a key: those of the place and three signs.
 const KEY_BITS: u32 = 3 * BITS + 3;
 
 /// Bits that are sorted by at a time.
-const DIGIT: u32 = 9;
-const _: () = assert!(KEY_BITS % DIGIT == 0);
+const DIGIT: u32 = 10;
+const _: () = assert!(KEY_BITS.is_multiple_of(DIGIT));
 
 impl Hierarchy {
     /// The numbers of the rays in an order in which they are better followed;

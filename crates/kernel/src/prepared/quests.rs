@@ -78,6 +78,8 @@ impl Nearest {
 }
 
 impl Quest for Nearest {
+    const NEAREST_FIRST: bool = true;
+
     #[inline(always)]
     fn which(&self) -> Which {
         Which::All
@@ -159,6 +161,8 @@ impl Any {
 }
 
 impl Quest for Any {
+    const NEAREST_FIRST: bool = false;
+
     #[inline(always)]
     fn which(&self) -> Which {
         self.which
@@ -243,6 +247,8 @@ impl<'h> All<'h> {
 }
 
 impl Quest for All<'_> {
+    const NEAREST_FIRST: bool = false;
+
     #[inline(always)]
     fn which(&self) -> Which {
         self.which

@@ -12,7 +12,7 @@ use super::balls::{Name, Spheres};
 use super::planes::Planes;
 use super::space::{Content, Entry, Kind, Space, Stand};
 use super::{Prepared, Which};
-use crate::hierarchy::Stack;
+use crate::hierarchy::{Hierarchy, Stack};
 use crate::lanes::{Lanes, MOST};
 use crate::primitive::Primitive;
 use crate::rays::{Rays, Tame};
@@ -24,6 +24,9 @@ use std::ops::{ControlFlow, Range};
 
 /// What is asked about a ray.
 pub(super) trait Quest {
+    /// Whether what is near is to be looked at first.
+    const NEAREST_FIRST: bool;
+
     /// Which shapes it is held against.
     fn which(&self) -> Which;
 
@@ -179,7 +182,8 @@ impl<'a> Walk<'a> {
         let tamed = (&rays, &tame);
         if !known.spheres && spheres.holds.any(quest.which()) && !quest.is_done() {
             match spheres.hierarchy() {
-                Some(hierarchy) => hierarchy.visit(
+                Some(hierarchy) => visit::<L, Q>(
+                    hierarchy,
                     lanes,
                     stack,
                     &ray,
@@ -199,7 +203,8 @@ impl<'a> Walk<'a> {
             }
         }
         if !space.bounded.is_empty() && !quest.is_done() {
-            space.hierarchy.visit(
+            visit::<L, Q>(
+                &space.hierarchy,
                 lanes,
                 stack,
                 &ray,
@@ -251,6 +256,24 @@ impl<'a> Walk<'a> {
                 }
             },
         );
+    }
+}
+
+/// In the order that serves the quest.
+#[inline(always)]
+fn visit<L: Lanes, Q: Quest>(
+    hierarchy: &Hierarchy,
+    lanes: L,
+    stack: &mut Stack,
+    ray: &Ray,
+    margin: f64,
+    stretch: (f64, f64),
+    meet: impl FnMut(Range<usize>, f64) -> ControlFlow<(), f64>,
+) {
+    if Q::NEAREST_FIRST {
+        hierarchy.visit(lanes, stack, ray, margin, stretch, meet);
+    } else {
+        hierarchy.visit_any(lanes, stack, ray, margin, stretch, meet);
     }
 }
 
