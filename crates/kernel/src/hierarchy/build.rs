@@ -160,7 +160,8 @@ impl Part {
         let sides = self.middles.sides();
         let long: [f32; 3] = std::array::from_fn(|axis| sides[1][axis] - sides[0][axis]);
         let longest = (0..3).fold(0, |a, b| if long[b] > long[a] { b } else { a });
-        if self.depth >= DEEP || !(long[longest] > 0.0) {
+        let is_long = long[longest] > 0.0;
+        if self.depth >= DEEP || !is_long {
             return halve(items, longest);
         }
         // Not quite so many bins that the last one is one too far.

@@ -93,7 +93,7 @@ pub(super) const LARGEST_POWER: f64 = f64::from_bits((1023 + 400) << 52);
 #[inline(always)]
 pub(super) fn power_below(x: f64) -> Option<f64> {
     let power = f64::from_bits(x.to_bits() & (0x7FF << 52));
-    (1.0 / LARGEST_POWER <= power && power <= LARGEST_POWER).then_some(power)
+    (1.0 / LARGEST_POWER..=LARGEST_POWER).contains(&power).then_some(power)
 }
 
 impl Space {

@@ -16,7 +16,7 @@ const KEY_BITS: u32 = 3 * BITS + 3;
 
 /// Bits that are sorted by at a time.
 const DIGIT: u32 = 9;
-const _: () = assert!(KEY_BITS % DIGIT == 0);
+const _: () = assert!(KEY_BITS.is_multiple_of(DIGIT));
 
 impl Hierarchy {
     /// The numbers of the rays in an order in which they are better followed;
@@ -108,7 +108,7 @@ impl Keys {
     }
 }
 
-/// Two zeros behind each of ten bits.
+/// Two zeros behind each of at most ten bits.
 #[inline(always)]
 fn spread(x: u32) -> u32 {
     let x = (x | x << 16) & 0x0300_00FF;

@@ -125,7 +125,7 @@ fn moved(boxes: &[Bounds], scale: f64, by: f64) -> Vec<Bounds> {
 fn no_box_that_a_ray_goes_through_is_lost() {
     for case in 0..400 {
         let mut rng = Rng::with_seed(case);
-        let scale = f64::powi(2.0, rng.i32(-90..90));
+        let scale = libm::scalbn(1.0, rng.i32(-90..90));
         let by = scale * [0.0, 0.0, 1e6, 1e9][rng.usize(0..4)];
         let boxes = moved(&boxes(&mut rng, 1 + case as usize % 60, true), scale, by);
         let (hierarchy, order) = Hierarchy::new(&boxes);
@@ -138,7 +138,7 @@ fn no_box_that_a_ray_goes_through_is_lost() {
                 continue;
             }
             let back = [0.0, 4.0, 1e3, 1e5][rng.usize(0..4)];
-            let unit = f64::powi(2.0, rng.i32(-90..90));
+            let unit = libm::scalbn(1.0, rng.i32(-90..90));
             let ray = Ray::new(corner - direction * (scale * back), direction * unit);
             let t = scale * back / unit;
             let mut stretches = vec![(0.0, f64::INFINITY), (0.0, t), (t, t), (-1.0, t)];
@@ -211,7 +211,7 @@ fn boxes_that_cannot_be_told_apart_are_halved() {
     let mut points = Vec::new();
     for i in 0..3000 {
         // Each half as far from the corner of all as the one before.
-        let at = f64::powi(0.5, i / 8);
+        let at = libm::scalbn(1.0, -(i / 8));
         points.push(Bounds::around([Point::new(at, 0.0, 0.0)]));
     }
     for boxes in [
