@@ -5,6 +5,7 @@
 //! not depend on threads.
 
 use super::collapse::{Costs, cost_of_leaf, cost_of_node};
+use super::node::LEAF;
 
 /// An item's box, or one around several: the lower corner, the item's number, and
 /// the upper corner with its signs turned, so that a union is eight minima.
@@ -92,11 +93,10 @@ pub(crate) const DEPTH: usize = DEEP + 28;
 /// More items than this are worth another thread.
 const MANY: usize = 4096;
 
-/// Orders the items and makes the hierarchy over them, with at most so many in a
-/// leaf.
-pub(super) fn build(items: &mut [Item], most: usize) -> Vec<Binary> {
+/// Orders the items and makes the hierarchy over them.
+pub(super) fn build(items: &mut [Item]) -> Vec<Binary> {
     let mut nodes = vec![Binary::EMPTY; 2 * items.len() - 1];
-    let part = Part::new(items, most, 0, 0);
+    let part = Part::new(items, 0, 0);
     part.build(items, &mut nodes);
     nodes
 }
@@ -105,8 +105,6 @@ pub(super) fn build(items: &mut [Item], most: usize) -> Vec<Binary> {
 struct Part {
     bounds: Item,
     middles: Item,
-    /// How many a leaf may have.
-    most: usize,
     first: usize,
     depth: usize,
 }
@@ -118,13 +116,13 @@ struct Bin {
 }
 
 impl Part {
-    fn new(items: &[Item], most: usize, first: usize, depth: usize) -> Self {
+    fn new(items: &[Item], first: usize, depth: usize) -> Self {
         let (mut bounds, mut middles) = (Item::NONE, Item::NONE);
         for item in items {
             bounds = bounds.union(item);
             middles = middles.union(&item.middles());
         }
-        Self { bounds, middles, most, first, depth }
+        Self { bounds, middles, first, depth }
     }
 
     fn build(&self, items: &mut [Item], nodes: &mut [Binary]) -> Costs {
@@ -135,15 +133,15 @@ impl Part {
             count: items.len() as u32,
             ..Binary::EMPTY
         };
-        if items.len() <= FEW.min(self.most) {
+        if items.len() <= FEW {
             let costs = [area * cost_of_leaf(items.len()); 9];
             nodes[0] = node;
             return costs;
         }
         let half = self.split(items);
         let (one, other) = items.split_at_mut(half);
-        let left = Self::new(one, self.most, self.first, self.depth + 1);
-        let right = Self::new(other, self.most, self.first + half, self.depth + 1);
+        let left = Self::new(one, self.first, self.depth + 1);
+        let right = Self::new(other, self.first + half, self.depth + 1);
         let (own, rest) = nodes.split_at_mut(1);
         let (near, far) = rest.split_at_mut(2 * half - 1);
         let (a, b) = if one.len() + other.len() > MANY {
@@ -152,7 +150,7 @@ impl Part {
             (left.build(one, near), right.build(other, far))
         };
         own[0] = Binary { second: 2 * half as u32, ..node };
-        let leaf = (items.len() <= self.most).then(|| area * cost_of_leaf(items.len()));
+        let leaf = (node.count as usize <= LEAF).then(|| area * cost_of_leaf(node.count as usize));
         cost_of_node(&mut own[0].choices, area, leaf, &a, &b)
     }
 
@@ -162,7 +160,6 @@ impl Part {
         let sides = self.middles.sides();
         let long: [f32; 3] = std::array::from_fn(|axis| sides[1][axis] - sides[0][axis]);
         let longest = (0..3).fold(0, |a, b| if long[b] > long[a] { b } else { a });
-        // Not for what is not a number either.
         let is_long = long[longest] > 0.0;
         if self.depth >= DEEP || !is_long {
             return halve(items, longest);
