@@ -5,7 +5,6 @@
 //! not depend on threads.
 
 use super::collapse::{Costs, cost_of_leaf, cost_of_node};
-use super::node::LEAF;
 
 /// An item's box, or one around several: the lower corner, the item's number, and
 /// the upper corner with its signs turned, so that a union is eight minima.
@@ -93,10 +92,11 @@ pub(crate) const DEPTH: usize = DEEP + 28;
 /// More items than this are worth another thread.
 const MANY: usize = 4096;
 
-/// Orders the items and makes the hierarchy over them.
-pub(super) fn build(items: &mut [Item]) -> Vec<Binary> {
+/// Orders the items and makes the hierarchy over them, with at most so many in a
+/// leaf.
+pub(super) fn build(items: &mut [Item], most: usize) -> Vec<Binary> {
     let mut nodes = vec![Binary::EMPTY; 2 * items.len() - 1];
-    let part = Part::new(items, 0, 0);
+    let part = Part::new(items, most, 0, 0);
     part.build(items, &mut nodes);
     nodes
 }
@@ -105,6 +105,8 @@ pub(super) fn build(items: &mut [Item]) -> Vec<Binary> {
 struct Part {
     bounds: Item,
     middles: Item,
+    /// How many a leaf may have.
+    most: usize,
     first: usize,
     depth: usize,
 }
@@ -116,13 +118,13 @@ struct Bin {
 }
 
 impl Part {
-    fn new(items: &[Item], first: usize, depth: usize) -> Self {
+    fn new(items: &[Item], most: usize, first: usize, depth: usize) -> Self {
         let (mut bounds, mut middles) = (Item::NONE, Item::NONE);
         for item in items {
             bounds = bounds.union(item);
             middles = middles.union(&item.middles());
         }
-        Self { bounds, middles, first, depth }
+        Self { bounds, middles, most, first, depth }
     }
 
     fn build(&self, items: &mut [Item], nodes: &mut [Binary]) -> Costs {
@@ -133,15 +135,15 @@ impl Part {
             count: items.len() as u32,
             ..Binary::EMPTY
         };
-        if items.len() <= FEW {
+        if items.len() <= FEW.min(self.most) {
             let costs = [area * cost_of_leaf(items.len()); 9];
             nodes[0] = node;
             return costs;
         }
         let half = self.split(items);
         let (one, other) = items.split_at_mut(half);
-        let left = Self::new(one, self.first, self.depth + 1);
-        let right = Self::new(other, self.first + half, self.depth + 1);
+        let left = Self::new(one, self.most, self.first, self.depth + 1);
+        let right = Self::new(other, self.most, self.first + half, self.depth + 1);
         let (own, rest) = nodes.split_at_mut(1);
         let (near, far) = rest.split_at_mut(2 * half - 1);
         let (a, b) = if one.len() + other.len() > MANY {
@@ -150,7 +152,7 @@ impl Part {
             (left.build(one, near), right.build(other, far))
         };
         own[0] = Binary { second: 2 * half as u32, ..node };
-        let leaf = (node.count as usize <= LEAF).then(|| area * cost_of_leaf(node.count as usize));
+        let leaf = (items.len() <= self.most).then(|| area * cost_of_leaf(items.len()));
         cost_of_node(&mut own[0].choices, area, leaf, &a, &b)
     }
 

@@ -3,75 +3,81 @@
 //! Morton's curve. So what one ray has brought near is there for the next.
 
 use super::Hierarchy;
-use lancer_math::Ray;
+use lancer_math::{Bounds, Ray};
 
 /// Rays fewer than this are not worth it.
 const FEW: usize = 256;
 
 /// Bits of a place along each axis.
-const BITS: u32 = 5;
+const BITS: u32 = 9;
 
 /// Bits of a key: those of the place and three signs.
 const KEY_BITS: u32 = 3 * BITS + 3;
 
 /// Bits that are sorted by at a time.
-const DIGIT: u32 = 9;
+const DIGIT: u32 = 10;
 const _: () = assert!(KEY_BITS.is_multiple_of(DIGIT));
 
 impl Hierarchy {
     /// The numbers of the rays in an order in which they are better followed;
     /// nothing where the order they have is as good.
     pub(crate) fn order_of(&self, rays: &[Ray]) -> Option<Vec<u32>> {
-        if rays.len() < FEW || self.is_ordered(rays) {
-            return None;
-        }
-        let keys = self.keys();
-        let mut list: Vec<u64> = (0_u32..)
-            .zip(rays)
-            .map(|(number, ray)| u64::from(keys.of(ray)) << 32 | u64::from(number))
-            .collect();
-        let mut other = vec![0; list.len()];
-        for pass in 0..KEY_BITS / DIGIT {
-            let shift = 32 + pass * DIGIT;
-            let digit = |entry: u64| (entry >> shift) as usize & ((1 << DIGIT) - 1);
-            let mut starts = [0_u32; 1 << DIGIT];
-            for &entry in &list {
-                starts[digit(entry)] += 1;
-            }
-            let mut sum = 0;
-            for start in &mut starts {
-                sum += std::mem::replace(start, sum);
-            }
-            for &entry in &list {
-                let place = &mut starts[digit(entry)];
-                other[*place as usize] = entry;
-                *place += 1;
-            }
-            std::mem::swap(&mut list, &mut other);
-        }
-        Some(list.into_iter().map(|entry| entry as u32).collect())
+        order_in(&self.bounds, rays)
     }
+}
 
+/// The same for rays through a box.
+pub(crate) fn order_in(bounds: &Bounds, rays: &[Ray]) -> Option<Vec<u32>> {
+    let keys = Keys::new(bounds);
+    if rays.len() < FEW || keys.is_ordered(rays) {
+        return None;
+    }
+    let mut list: Vec<u64> = (0_u32..)
+        .zip(rays)
+        .map(|(number, ray)| u64::from(keys.of(ray)) << 32 | u64::from(number))
+        .collect();
+    let mut other = vec![0; list.len()];
+    for pass in 0..KEY_BITS / DIGIT {
+        let shift = 32 + pass * DIGIT;
+        let digit = |entry: u64| (entry >> shift) as usize & ((1 << DIGIT) - 1);
+        let mut starts = [0_u32; 1 << DIGIT];
+        for &entry in &list {
+            starts[digit(entry)] += 1;
+        }
+        let mut sum = 0;
+        for start in &mut starts {
+            sum += std::mem::replace(start, sum);
+        }
+        for &entry in &list {
+            let place = &mut starts[digit(entry)];
+            other[*place as usize] = entry;
+            *place += 1;
+        }
+        std::mem::swap(&mut list, &mut other);
+    }
+    Some(list.into_iter().map(|entry| entry as u32).collect())
+}
+
+impl Keys {
     /// Whether most rays are near the one before, by a sample.
     fn is_ordered(&self, rays: &[Ray]) -> bool {
-        let keys = self.keys();
         let step = rays.len() / 128;
         let pairs = rays.chunks_exact(step).filter_map(|chunk| chunk.first_chunk());
         let (mut near, mut all) = (0, 0);
         for [a, b] in pairs {
             // The same octant, and a cell of an eighth of the box's sides.
-            near += usize::from((keys.of(a) ^ keys.of(b)) >> (3 * (BITS - 3)) == 0);
+            near += usize::from((self.of(a) ^ self.of(b)) >> (3 * (BITS - 3)) == 0);
             all += 1;
         }
         4 * near >= 3 * all
     }
 
-    fn keys(&self) -> Keys {
-        let sides = self.bounds.sides();
+    fn new(bounds: &Bounds) -> Self {
+        let sides = bounds.sides();
         let scale = sides.map(|side| if side > 0.0 { f64::from(1 << BITS) / side } else { 0.0 });
-        Keys {
-            low: [0, 1, 2].map(|i| self.bounds.min[i]),
-            high: [0, 1, 2].map(|i| self.bounds.max[i]),
+        Self {
+            low: [0, 1, 2].map(|i| bounds.min[i]),
+            high: [0, 1, 2].map(|i| bounds.max[i]),
             scale: [scale.x, scale.y, scale.z],
         }
     }
