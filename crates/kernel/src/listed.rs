@@ -135,13 +135,15 @@ impl Listed {
     }
 
     /// The nearest hits with 0 < t < `t_max`, those of the first item where several
-    /// are equally near.
+    /// are equally near. A ray leaves the outside of the ball of the number in `outside`, if
+    /// that is one, by more than the error of its point.
     #[inline(always)]
     pub(crate) fn nearest<L: Lanes>(
         &self,
         rays: &Rays<L>,
         t_max: L::Real,
         among: &Candidates,
+        outside: Option<L::Real>,
     ) -> LaneHits<L::Real> {
         let lanes = rays.lanes;
         let zero = lanes.splat(0.0);
@@ -165,10 +167,14 @@ impl Listed {
         while let Some(k) = next_bit(&mut asked) {
             let (item, ball) = &self.balls[k];
             let balls = Balls::splat(lanes, ball);
-            let may = balls.may_meet(rays, &tame);
+            let item = lanes.splat(f64::from(*item));
+            let mut may = balls.may_meet(rays, &tame);
+            if let Some(outside) = outside {
+                may = may & (balls.may_come_back(rays, &tame) | !outside.eq(item));
+            }
             if may.any() {
                 let t = balls.crossings(rays, &tame).ahead(zero);
-                best.consider(t, lanes.splat(f64::from(*item)), may & t.gt(zero));
+                best.consider(t, item, may & t.gt(zero));
             }
         }
         best

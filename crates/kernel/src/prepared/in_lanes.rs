@@ -59,16 +59,18 @@ impl Prepared {
     }
 
     /// The nearest hits with 0 < t < `t_max` of the `asked` rays of a register; for
-    /// others it answers anything. Listed shapes that are no candidates are not asked.
+    /// others it answers anything. Listed shapes that are no candidates are not asked. If
+    /// rays leave the outside of closed items as [`SurfacePoint::leave`](crate::SurfacePoint::leave)
+    /// has it, `outside` are those; -1 where they do not.
     #[inline(always)]
     pub fn nearest_in_lanes<L: Lanes>(
         &self,
         rays: &Rays<L>,
         t_max: f64,
         asked: L::Mask,
-        among: &Candidates,
+        (among, outside): (&Candidates, Option<L::Real>),
     ) -> LaneHits<L::Real> {
-        let hits = self.listed.nearest(rays, rays.lanes.splat(t_max), among);
+        let hits = self.listed.nearest(rays, rays.lanes.splat(t_max), among, outside);
         if self.lists_all() { hits } else { self.nearest_lane_by_lane(rays, t_max, asked, hits) }
     }
 

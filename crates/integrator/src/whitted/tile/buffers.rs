@@ -47,6 +47,8 @@ pub(super) struct Bundle {
     /// The place of that pixel in the tile.
     pub(super) pixel: [u16; ROOM],
     pub(super) t: Column,
+    /// The items that they leave the outside of; -1 where they do not.
+    pub(super) outside: Column,
     /// -1 where they meet nothing.
     pub(super) item: Column,
     pub(super) part: Column,
@@ -62,6 +64,7 @@ impl Bundle {
             share: NONE,
             pixel: [0; ROOM],
             t: NONE[0],
+            outside: NONE[0],
             item: NONE[0],
             part: NONE[0],
         }
@@ -72,7 +75,9 @@ impl Bundle {
     pub(super) fn pad(&mut self) {
         let Some(last) = self.count.checked_sub(1) else { return };
         let columns = self.origin.iter_mut().chain(&mut self.direction).chain(&mut self.share);
-        for column in columns.chain([&mut self.t, &mut self.item, &mut self.part]) {
+        for column in
+            columns.chain([&mut self.t, &mut self.outside, &mut self.item, &mut self.part])
+        {
             let value = column[last];
             column[last + 1..last + MOST].fill(value);
         }

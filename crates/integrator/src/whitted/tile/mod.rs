@@ -58,7 +58,7 @@ impl Work for Tile<'_> {
         let mut kind = Kind::Primary;
         let mut depth = 0;
         while self.buffers.rays.count > 0 {
-            if self.meet(lanes, &among) {
+            if self.meet(lanes, &among, depth) {
                 self.buffers.all_alike();
             } else {
                 self.buffers.sort();
@@ -142,15 +142,17 @@ impl Tile<'_> {
 
     /// What the rays meet, and whether it is the same for all.
     #[inline(always)]
-    fn meet<L: Lanes>(&mut self, lanes: L, among: &Candidates) -> bool {
+    fn meet<L: Lanes>(&mut self, lanes: L, among: &Candidates, depth: u32) -> bool {
         let rays = &mut self.buffers.rays;
         let mut is_another = lanes.mask(0);
         for at in (0..rays.count).step_by(L::WIDTH) {
             let asked = first_lanes(lanes, rays.count - at);
             let register =
                 Rays::new(lanes, load(lanes, &rays.origin, at), load(lanes, &rays.direction, at));
-            let hits =
-                self.tracer.prepared.nearest_in_lanes(&register, f64::INFINITY, asked, among);
+            let outside = (depth > 0 && self.tracer.kernel.culling.tile_candidates)
+                .then(|| lanes.load(&rays.outside[at..]));
+            let prepared = &self.tracer.prepared;
+            let hits = prepared.nearest_in_lanes(&register, f64::INFINITY, asked, (among, outside));
             hits.t.store(&mut rays.t[at..]);
             hits.item.store(&mut rays.item[at..]);
             hits.part.store(&mut rays.part[at..]);
@@ -229,7 +231,7 @@ impl Tile<'_> {
         (origin, direction): (Vectors<L::Real>, Vectors<L::Real>),
         share: &Vectors<L::Real>,
         asked: L::Mask,
-        (at, depth): (usize, u32),
+        (at, depth, outside): (usize, u32, f64),
     ) {
         let zero = lanes.splat(0.0);
         let largest = share.amax();
@@ -244,7 +246,9 @@ impl Tile<'_> {
             return;
         }
         let Buffers { group, next, .. } = &mut *self.buffers;
-        let Bundle { count, origin: to, direction: way, share: part, pixel, .. } = &mut **next;
+        let Bundle { count, origin: to, direction: way, share: part, pixel, outside: out, .. } =
+            &mut **next;
+        lanes.splat(outside).store_packed(matters, &mut out[*count..]);
         pack(&origin, matters, to, *count);
         pack(&direction, matters, way, *count);
         pack(share, matters, part, *count);

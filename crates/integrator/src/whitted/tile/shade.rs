@@ -50,7 +50,7 @@ impl Tile<'_> {
             self.deliver(lanes);
         }
         if gloss > 0.0 {
-            self.mirror(lanes, gloss, depth);
+            self.mirror(lanes, gloss, depth, around.outside);
         }
     }
 
@@ -181,7 +181,8 @@ impl Tile<'_> {
 
     /// What a mirror of that gloss throws back.
     #[inline(always)]
-    fn mirror<L: Lanes>(&mut self, lanes: L, gloss: f64, depth: u32) {
+    fn mirror<L: Lanes>(&mut self, lanes: L, gloss: f64, depth: u32, outside: Option<u32>) {
+        let outside = outside.map_or(-1.0, f64::from);
         for at in (0..self.buffers.group.count).step_by(L::WIDTH) {
             let Buffers { group, sights, .. } = &*self.buffers;
             let direction = load(lanes, &group.direction, at);
@@ -197,7 +198,7 @@ impl Tile<'_> {
             let origin = load(lanes, &sights.point, at) + facet * away;
             let share = load(lanes, &group.share, at) * lanes.splat(gloss);
             let asked = first_lanes(lanes, group.count - at);
-            self.push(lanes, (origin, mirrored), &share, asked, (at, depth));
+            self.push(lanes, (origin, mirrored), &share, asked, (at, depth, outside));
         }
     }
 }
