@@ -127,7 +127,10 @@ const READABLE: usize = 256;
 /// Eight numbers of a leaf.
 #[inline(always)]
 fn eight<T>(leaf: &[T; READABLE], at: usize) -> &[T; 8] {
-    leaf[at..].first_chunk().unwrap_or_else(#[inline(always)] || unreachable!())
+    leaf[at..].first_chunk().unwrap_or_else(
+        #[inline(always)]
+        || unreachable!(),
+    )
 }
 
 /// The corners of a leaf's triangle.
@@ -169,11 +172,8 @@ impl<E: Eight> Filter<E> {
     /// Those that the ray may go through.
     #[inline(always)]
     fn candidates(&self, count: usize, row: impl Fn(usize) -> E::Doubles) -> u32 {
-        let [a, b, c] = [
-            self.see(0, count, &row),
-            self.see(3, count, &row),
-            self.see(6, count, &row),
-        ];
+        let [a, b, c] =
+            [self.see(0, count, &row), self.see(3, count, &row), self.see(6, count, &row)];
         let [i, j, k] = [products(b, c), products(c, a), products(a, b)];
         let left = i[0].ge(i[1]) & j[0].ge(j[1]) & k[0].ge(k[1]);
         let right = i[0].le(i[1]) & j[0].le(j[1]) & k[0].le(k[1]);
