@@ -62,7 +62,7 @@ fn the_scenes_that_people_read() {
     for golden in golden::all().expect("the settings are valid") {
         if golden.engine() == "whitted" {
             let scene = golden.scene().expect("the scene is valid");
-            check(&golden.name, &small(scene, [56, 42]), &all_widths());
+            check(&golden.name, &small(scene, [112, 84]), &all_widths());
         }
     }
 }

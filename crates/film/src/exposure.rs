@@ -114,6 +114,8 @@ struct Steps {
     /// Of each interval between 1 and 2, so narrow that there is at most one
     /// threshold in it, the steps down of its lower end.
     lowest: [u8; 1 << FRACTION],
+    /// The same, and the last fraction, as bits of single precision, that takes no more.
+    intervals: [(u8, u32); 1 << FRACTION],
 }
 
 /// How many bits of a number's fraction choose its interval.
@@ -146,12 +148,26 @@ impl Steps {
             let start = 1.0 + interval as f64 / f64::from(1 << FRACTION);
             thresholds.partition_point(|threshold| *threshold < start) as u8
         });
-        Self { thresholds, lowest }
+        let intervals = lowest.map(|down: u8| {
+            let threshold: f64 = thresholds[usize::from(down)];
+            let nearest = threshold as f32;
+            let below = if f64::from(nearest) > threshold { nearest.next_down() } else { nearest };
+            // The last threshold is at the end of the octave.
+            let last = if below < 2.0 { below.to_bits() & ((1 << 23) - 1) } else { u32::MAX };
+            (down, last)
+        });
+        Self { thresholds, lowest, intervals }
     }
 
     /// The steps of a number that is above 0 and finite.
     #[inline]
     fn of(&self, peak: f32) -> i32 {
+        let bits = peak.to_bits();
+        if bits >= f32::MIN_POSITIVE.to_bits() {
+            let (down, last) = self.intervals[(bits >> (23 - FRACTION)) as usize % (1 << FRACTION)];
+            let further = bits & ((1 << 23) - 1) > last;
+            return STEPS * (127 - (bits >> 23) as i32) - i32::from(down) - i32::from(further);
+        }
         // All that are above 0 are normal as doubles.
         let bits = f64::from(peak).to_bits();
         let exponent = (bits >> 52) as i32 - 1023;

@@ -174,7 +174,8 @@ impl Listed {
         best
     }
 
-    /// Which rays hit one of some shapes with 0 < t < `t_max`.
+    /// Which rays hit one of some shapes with 0 < t < `t_max`. All leave the outside of the
+    /// ball `outside`, if that is one, by more than the error of their points.
     #[inline(always)]
     pub(crate) fn any<L: Lanes>(
         &self,
@@ -182,6 +183,7 @@ impl Listed {
         t_max: f64,
         which: Which,
         among: &Candidates,
+        outside: Option<u32>,
     ) -> L::Mask {
         let lanes = rays.lanes;
         let (zero, t_max) = (lanes.splat(0.0), lanes.splat(t_max));
@@ -202,8 +204,18 @@ impl Listed {
         }
         let tame = rays.tame();
         while let Some(k) = next_bit(&mut asked) {
-            let balls = Balls::splat(lanes, &self.balls[k].1);
-            let may = balls.may_meet(rays, &tame);
+            let (item, ball) = &self.balls[k];
+            let balls = Balls::splat(lanes, ball);
+            let may = if Some(*item) == outside {
+                balls.may_come_back(rays, &tame)
+            } else {
+                let may = balls.may_meet(rays, &tame);
+                if !may.any() {
+                    continue;
+                }
+                met = met | balls.surely_meet(rays, &tame, t_max);
+                may & !met
+            };
             if may.any() {
                 let t = balls.crossings(rays, &tame).ahead(zero);
                 met = met | (may & t.gt(zero) & t.lt(t_max));

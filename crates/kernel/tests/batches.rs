@@ -16,7 +16,7 @@ fn builder() -> SceneBuilder {
 /// Spheres in a cube of as many units, every third of glass, over a plane.
 fn spheres(count: u32) -> Scene {
     let mut rng = Rng::with_seed(1);
-    let side = f64::from(count).cbrt();
+    let side = libm::cbrt(f64::from(count));
     let glass = Surface::glass(1.5).expect("in range");
     let mut builder = builder();
     for i in 0..count {
@@ -47,7 +47,7 @@ fn a_batch_is_answered_as_its_rays_are() {
             .flat_map(|width| [Culling::ALL, Culling::NONE].map(|culling| (width, culling)))
         {
             let prepared = Prepared::with(&scene, &KernelSettings { lanes: width, culling });
-            let rays = rays(3000, f64::from(count).cbrt(), 7);
+            let rays = rays(3000, libm::cbrt(f64::from(count)), 7);
             let mut hits = vec![None; rays.len()];
             prepared.nearest_each(&rays, f64::INFINITY, &mut hits);
             for (ray, hit) in rays.iter().zip(&hits) {

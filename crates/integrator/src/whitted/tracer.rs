@@ -380,14 +380,7 @@ impl Tracer for WhittedTracer {
             None => !self.prepared.has_transparent(),
         };
         if begins_in_air {
-            let rows: u32 = std::env::var("LANCER_ROWS").map_or(16, |v| v.parse().unwrap_or(16));
-            for (pixels, y) in
-                pixels.chunks_mut((rows * tile.width) as usize).zip((0..).step_by(rows as usize))
-            {
-                let window = Window { y: tile.y + y, height: rows.min(tile.height - y), ..tile };
-                self.stages(window, pixels, counts);
-            }
-            return;
+            return self.stages(tile, pixels, counts);
         }
         for (pixel, index) in pixels.iter_mut().zip(0..) {
             let (x, y) = (tile.x + index % tile.width, tile.y + index / tile.width);

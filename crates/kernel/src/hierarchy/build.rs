@@ -162,7 +162,6 @@ impl Part {
         let sides = self.middles.sides();
         let long: [f32; 3] = std::array::from_fn(|axis| sides[1][axis] - sides[0][axis]);
         let longest = (0..3).fold(0, |a, b| if long[b] > long[a] { b } else { a });
-        // Not for what is not a number either.
         let is_long = long[longest] > 0.0;
         if self.depth >= DEEP || !is_long {
             return halve(items, longest);

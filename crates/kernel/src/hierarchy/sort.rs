@@ -124,7 +124,7 @@ impl Keys {
     }
 }
 
-/// Two zeros behind each of ten bits.
+/// Two zeros behind each of at most ten bits.
 #[inline(always)]
 fn spread(x: u32) -> u32 {
     let x = (x | x << 16) & 0x0300_00FF;

@@ -108,7 +108,9 @@ impl Prepared {
     }
 
     /// Which of the `asked` rays of a register hit something with 0 < t < `t_max`
-    /// among some items. Listed shapes that are no candidates are not asked.
+    /// among some items. Listed shapes that are no candidates are not asked. If all of
+    /// them leave the outside of a closed item as [`SurfacePoint::leave`](crate::SurfacePoint::leave) has it,
+    /// that is `outside`.
     #[inline(always)]
     pub fn any_in_lanes<L: Lanes>(
         &self,
@@ -116,9 +118,9 @@ impl Prepared {
         t_max: f64,
         asked: L::Mask,
         which: Which,
-        among: &Candidates,
+        (among, outside): (&Candidates, Option<u32>),
     ) -> L::Mask {
-        let met = self.listed.any(rays, t_max, which, among) & asked;
+        let met = self.listed.any(rays, t_max, which, among, outside) & asked;
         if self.lists_all() {
             return met;
         }
@@ -199,7 +201,7 @@ impl Prepared {
     }
 
     /// What rays may meet that start in a ball and go to a goal. If all leave the
-    /// surface of an item as [`SurfacePoint::leave`] has it, on the side of a unit normal,
+    /// surface of an item as [`SurfacePoint::leave`](crate::SurfacePoint::leave) has it, on the side of a unit normal,
     /// that is `leaving`.
     #[must_use]
     pub fn candidates_between(

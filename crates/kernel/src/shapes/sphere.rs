@@ -64,6 +64,41 @@ impl<R: Real> Balls<R> {
         !(self.passes(tame, b, c2) | leaves)
     }
 
+    /// The lanes in which one of the crossings is at 0 < t < `t_max`, whatever
+    /// roundings do: the origin is outside and the line passes through the ball, both by
+    /// 2^-40 of the squares, and is nearest to the centre before `t_max`.
+    #[inline(always)]
+    pub(crate) fn surely_meet<L: Lanes<Real = R>>(
+        &self,
+        rays: &Rays<L>,
+        tame: &Tame<R>,
+        t_max: R,
+    ) -> R::Mask {
+        const LESS: f64 = 1.0 - 9.094_947_017_729_282e-13; // 1 - 2^-40
+        let from_centre = rays.origin - self.centre;
+        let b = from_centre.dot(&tame.direction);
+        let c2 = from_centre.norm_squared();
+        let r2 = self.radius * self.radius;
+        let is_outside = (c2 * LESS).gt(r2 + 1e-280);
+        let is_through = ((c2 - r2 * LESS) * tame.squared + 1e-80).lt(b * b * LESS);
+        let is_before = (-b).lt(tame.squared * (t_max * LESS));
+        is_outside & is_through & is_before & b.lt(rays.lanes.splat(0.0))
+    }
+
+    /// The lanes in which a ray that starts outside by more than its error may come back:
+    /// where it does not go away from the centre. Where it does, with the same product
+    /// [`crossings`](Self::crossings) finds both behind it, since the sign of
+    /// [`excess`](Self::excess) is right.
+    #[inline(always)]
+    pub(crate) fn may_come_back<L: Lanes<Real = R>>(
+        &self,
+        rays: &Rays<L>,
+        tame: &Tame<R>,
+    ) -> R::Mask {
+        let from_centre = rays.origin - self.centre;
+        !from_centre.dot(&tame.direction).gt(rays.lanes.splat(0.0))
+    }
+
     /// The same for something ahead or behind.
     #[inline(always)]
     pub(crate) fn may_meet_line<L: Lanes<Real = R>>(

@@ -36,14 +36,20 @@ impl Tile<'_> {
                 Candidates::ALL
             };
             for at in (0..self.buffers.group.count).step_by(L::WIDTH) {
-                self.shine(lanes, source, at, &among);
+                self.shine(lanes, source, at, (&among, around.outside));
             }
         }
     }
 
     /// Adds the light of one source at the points of a register.
     #[inline(always)]
-    fn shine<L: Lanes>(&mut self, lanes: L, source: &Source, at: usize, among: &Candidates) {
+    fn shine<L: Lanes>(
+        &mut self,
+        lanes: L,
+        source: &Source,
+        at: usize,
+        (among, outside): (&Candidates, Option<u32>),
+    ) {
         let zero = lanes.splat(0.0);
         let prepared = &self.tracer.prepared;
         let Buffers { group, sights, .. } = &mut *self.buffers;
@@ -91,7 +97,7 @@ impl Tile<'_> {
             From::Point(lamp) => Vectors::splat_point(lanes, lamp) - origin,
         };
         let rays = Rays::new(lanes, origin, direction);
-        let hidden = prepared.any_in_lanes(&rays, t_max, asked, Which::Opaque, among);
+        let hidden = prepared.any_in_lanes(&rays, t_max, asked, Which::Opaque, (among, outside));
         let arrives = asked & !hidden;
         if sights.is_grey {
             let sum = lanes.load(&sights.light[0][at..]);

@@ -15,6 +15,8 @@ pub(super) struct Around {
     pub(super) radius: f64,
     /// The normal on the side that all rays see; none where they do not see the same.
     pub(super) side: Option<Vector>,
+    /// The item, if it is seen from its outside alone.
+    pub(super) outside: Option<u32>,
 }
 
 impl Around {
@@ -23,7 +25,7 @@ impl Around {
     fn new(bounds: &Bounds, error: f64, side: Option<Vector>) -> Self {
         let (centre, radius) = ball_around(bounds);
         let radius = (radius + 4.0 * error) * (1.0 + 1e-9);
-        Self { centre, radius, side }
+        Self { centre, radius, side, outside: None }
     }
 }
 
@@ -55,6 +57,7 @@ impl Tile<'_> {
     /// Points, normals and colours of an item that is met in lanes.
     #[inline(always)]
     fn points<L: Lanes>(&mut self, lanes: L, item: u32) -> Around {
+        let culling = &self.tracer.kernel.culling;
         let prepared = &self.tracer.prepared;
         let pattern = prepared.surface(item).pattern;
         let [first, second] =
@@ -96,7 +99,8 @@ impl Tile<'_> {
         let error = (0..L::WIDTH).map(|k| largest.lane(k)).fold(0.0, f64::max);
         let one_side = behind.any() != before.any();
         let side = one_side.then(|| load(lanes, &sights.facet, 0).lane(0));
-        Around::new(&bounds, error, side)
+        let outside = (!behind.any() && culling.shadow_candidates).then_some(item);
+        Around { outside, ..Around::new(&bounds, error, side) }
     }
 
     /// The same of any other item, one by one.
@@ -150,9 +154,10 @@ impl Tile<'_> {
     fn deliver<L: Lanes>(&mut self, lanes: L) {
         let Buffers { group, sights, radiance, .. } = &mut *self.buffers;
         let zero = lanes.splat(0.0);
-        // One for each pixel: what is added to the last register beyond them is never
-        // looked at.
-        let in_order = group.count == self.window.pixels() as usize;
+        // One for each pixel, and in their order: what is added to the last register beyond
+        // them is never looked at.
+        let in_order = group.count == self.window.pixels() as usize
+            && group.pixel[..group.count].iter().zip(0..).fold(true, |all, (p, k)| all & (*p == k));
         for axis in 0..3 {
             let radiance = &mut radiance[axis];
             let light = &sights.light[if sights.is_grey { 0 } else { axis }];
