@@ -68,7 +68,8 @@ impl LightMeter {
         for (pixel, side) in pixels.iter().zip((0..SIDES).cycle()) {
             // As `Film::peak` has it.
             let peak = pixel.iter().fold(0.0, |peak, v| if *v > peak { *v } else { peak });
-            if peak > 0.0 && peak.is_finite() {
+            // Above 0 and finite: the bits of such numbers are ordered as they are.
+            if peak.to_bits().wrapping_sub(1) < f32::INFINITY.to_bits() - 1 {
                 self.counts[(steps.of(peak) - FEWEST) as usize][side] += 1;
             }
         }
