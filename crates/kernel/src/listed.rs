@@ -283,7 +283,7 @@ impl Listed {
             let along = v.dot(axis);
             let across = (v - axis * along).norm();
             let beyond = across * cosine - along * sine;
-            let slack = 1e-9 * (v.norm() + centre.coords.norm() + ball.centre.coords.norm());
+            let slack = 1e-9 * (bound(&v) + bound(&centre.coords) + bound(&ball.centre.coords));
             if beyond > (ball.radius + radius) * (1.0 + SLACK) + slack {
                 among.balls &= !(1 << k);
             }
@@ -291,7 +291,8 @@ impl Listed {
         for (k, (_, plane)) in self.planes.iter().enumerate() {
             let normal = plane.unit();
             let height = normal.dot(&(centre - plane.origin));
-            let slack = SLACK * (centre.coords.norm() + plane.origin.coords.norm()) + radius;
+            let size = bound(&centre.coords) + bound(&plane.origin.coords);
+            let slack = SLACK * size + radius;
             let toward = if height > slack {
                 -normal.dot(axis)
             } else if height < -slack {
@@ -323,7 +324,7 @@ impl Listed {
         leaving: Option<(u32, Vector)>,
     ) -> Candidates {
         let mut among = self.all();
-        let size = centre.coords.norm() + radius;
+        let size = bound(&centre.coords) + radius;
         for (k, (_, ball)) in self.balls.iter().enumerate() {
             let from_centre = ball.centre - centre;
             let way = match goal {
@@ -336,19 +337,20 @@ impl Listed {
                 Goal::Point(_) => along.clamp(0.0, 1.0),
                 Goal::Direction(_) => along.max(0.0),
             };
-            let off = (from_centre - way * along).norm();
-            let slack = 1e-9 * (size + ball.centre.coords.norm() + from_centre.norm() + radius);
-            if off > ball.radius + radius + slack {
+            let off = (from_centre - way * along).norm_squared();
+            let slack = 1e-9 * (size + bound(&ball.centre.coords) + bound(&from_centre) + radius);
+            let reach = ball.radius + radius + slack;
+            if off > reach * reach {
                 among.balls &= !(1 << k);
             }
         }
         for (k, (item, plane)) in self.planes.iter().enumerate() {
             let normal = plane.unit();
             let height = normal.dot(&(centre - plane.origin));
-            let size = size + plane.origin.coords.norm();
+            let size = size + bound(&plane.origin.coords);
             let (of_goal, slack) = match goal {
                 Goal::Point(point) => {
-                    (normal.dot(&(point - plane.origin)), SLACK * (size + point.coords.norm()))
+                    (normal.dot(&(point - plane.origin)), SLACK * (size + bound(&point.coords)))
                 }
                 Goal::Direction(direction) => (normal.dot(direction), SLACK),
             };
@@ -387,6 +389,12 @@ fn within<R: Real>(slope: R, t: R) -> R {
 #[inline(always)]
 fn same_sign<R: Real>(a: R, b: R, zero: R) -> R::Mask {
     (a.gt(zero) & b.gt(zero)) | (a.lt(zero) & b.lt(zero))
+}
+
+/// At least the length, and less than twice that.
+#[inline(always)]
+fn bound(v: &Vector) -> f64 {
+    2.0 * v.amax()
 }
 
 /// Takes the lowest bit that is set, and says where it was.
