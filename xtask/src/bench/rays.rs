@@ -100,16 +100,12 @@ fn single(origin: Point, direction: Vector) -> Ray {
 
 /// The nearest hit of each ray.
 pub(super) fn nearest(prepared: &Prepared, rays: &[Ray], hits: &mut [Option<Hit>]) {
-    for (ray, hit) in rays.iter().zip(hits) {
-        *hit = prepared.nearest(ray, f64::INFINITY);
-    }
+    prepared.nearest_each(rays, f64::INFINITY, hits);
 }
 
 /// Whether each ray meets something.
 pub(super) fn any(prepared: &Prepared, rays: &[Ray], answers: &mut [bool]) {
-    for (ray, answer) in rays.iter().zip(answers) {
-        *answer = prepared.any(ray, f64::INFINITY, Which::All);
-    }
+    prepared.any_each(rays, f64::INFINITY, Which::All, answers);
 }
 
 /// The nearest hits, found by so many threads.

@@ -78,6 +78,7 @@ pub(super) fn measure(args: &BenchArgs) -> Result<Section, Failure> {
             "triangles",
             "Lancer, 1 thread",
             "2 threads",
+            "bytes a triangle, in all",
             "Embree, robust, all threads",
         ]),
     );

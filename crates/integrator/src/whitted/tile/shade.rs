@@ -116,7 +116,7 @@ impl Tile<'_> {
         let mut error = 0.0_f64;
         debug_assert!(group.item[..group.count].iter().all(|met| *met == f64::from(item)));
         // The last register is filled.
-        for k in 0..group.count + lancer_kernel::lanes::MOST {
+        for k in 0..group.count + lancer_kernel::lanes::MOST - 1 {
             let ray = group.ray(k);
             let seen = prepared.expand(&ray, &group.hit(k));
             let from_behind = ray.direction.dot(&seen.normal) > 0.0;
