@@ -98,6 +98,8 @@ mod tests {
         let room = room();
         assert!((60_000..70_000).contains(&room.triangle_count()), "{room:?}");
         let (min, max) = room.bounds();
-        assert_eq!((min.coords, max.coords), (-lancer_math::Vector::from(HALF), HALF.into()));
+        // Arches reach a little into the ceiling.
+        let half = lancer_math::Vector::from(HALF);
+        assert!((min.coords + half).amax() <= 0.1 && (max.coords - half).amax() <= 0.1);
     }
 }
