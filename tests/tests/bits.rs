@@ -51,7 +51,10 @@ fn hash(scene: &Scene, engine: &dyn Engine, threads: usize, kernel: KernelSettin
         }
         hash.add(u64::from(pixel.shape) << 32 | u64::from(pixel.instance));
     }
-    hash.add(rendered.counts.primary);
+    let counts = &rendered.counts;
+    for count in [counts.primary, counts.reflected, counts.transmitted, counts.shadow] {
+        hash.add(count);
+    }
     hash.0
 }
 

@@ -33,7 +33,8 @@ fn together(tracer: &dyn Tracer, window: Window) -> (Vec<Rgb>, RayCounts) {
 fn check(name: &str, scene: &Scene, settings: &[KernelSettings]) {
     let engine = Whitted::new();
     let (width, height) = (scene.camera.px_width.get(), scene.camera.px_height.get());
-    let reference = engine.prepare(scene, &settings[0]);
+    let scalar = KernelSettings { lanes: Width::SCALAR, ..KernelSettings::default() };
+    let reference = engine.prepare(scene, &scalar);
     let tracers: Vec<_> = settings.iter().map(|settings| engine.prepare(scene, settings)).collect();
     let frame = lancer_film::Size::new(width, height).window();
     for window in frame.strips(TILE_SIDE, TILE_SIDE) {
@@ -64,6 +65,18 @@ fn the_scenes_that_people_read() {
             let scene = golden.scene().expect("the scene is valid");
             check(&golden.name, &small(scene, [112, 84]), &all_widths());
         }
+    }
+}
+
+#[test]
+fn windows_may_have_any_size() {
+    let scene = random::scene(3, [90, 70]);
+    let engine = Whitted::new();
+    let tracer = engine.prepare(&scene, &KernelSettings::default());
+    for (width, height) in [(41, 35), (1, 40), (70, 1), (16, 17), (3, 5)] {
+        let window = Window { x: 3, y: 2, width, height };
+        let (expected, found) = (alone(&*tracer, window), together(&*tracer, window));
+        assert_eq!((bits(&expected.0), expected.1), (bits(&found.0), found.1), "{window:?}");
     }
 }
 

@@ -1,4 +1,4 @@
-use crate::{Classic, Direct, RayCounts, Whitted};
+use crate::{Classic, Direct, RayCounts, TILE_SIDE, Whitted};
 use lancer_film::{Display, LayerPixel, Window};
 use lancer_kernel::KernelSettings;
 use lancer_scene::Scene;
@@ -81,4 +81,30 @@ pub fn engines() -> &'static [&'static dyn Engine] {
 #[must_use]
 pub fn engine_by_name(name: &str) -> Option<&'static dyn Engine> {
     engines().iter().copied().find(|engine| engine.name() == name)
+}
+
+/// Has a tile coloured in parts of at most [`TILE_SIDE`] by as many pixels, as stages
+/// have room for.
+pub(crate) fn in_parts(
+    window: Window,
+    pixels: &mut [Rgb],
+    mut part: impl FnMut(Window, &mut [Rgb]),
+) {
+    if window.width <= TILE_SIDE && window.height <= TILE_SIDE {
+        return part(window, pixels);
+    }
+    let mut buffer = [[0.0; 3]; (TILE_SIDE * TILE_SIDE) as usize];
+    for top in (0..window.height).step_by(TILE_SIDE as usize) {
+        for left in (0..window.width).step_by(TILE_SIDE as usize) {
+            let (width, height) =
+                (TILE_SIDE.min(window.width - left), TILE_SIDE.min(window.height - top));
+            let small = Window { x: window.x + left, y: window.y + top, width, height };
+            let colours = &mut buffer[..small.pixels() as usize];
+            part(small, colours);
+            for (row, y) in colours.chunks_exact(width as usize).zip(top..) {
+                let start = y as usize * window.width as usize + left as usize;
+                pixels[start..start + row.len()].copy_from_slice(row);
+            }
+        }
+    }
 }

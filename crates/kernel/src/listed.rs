@@ -50,12 +50,13 @@ impl Candidates {
             let (normal, to_plane) = (plane.unit(), plane.origin - apex);
             let ahead = normal.dot(&to_plane);
             // What is this near may be anywhere.
-            if ahead.abs() <= 1e-9 * (to_plane.norm() + apex.coords.norm()) {
+            if ahead.abs() <= 1e-9 * (bound(&to_plane) + bound(&apex.coords)) {
                 return self;
             }
             nearness[k] = edges.map(|edge| normal.dot(&edge) / ahead);
             let size = nearness[k].iter().fold(0.0_f64, |size, n| size.max(n.abs()));
-            roundings[k] = 1e-9 * size + SLACK / ahead.abs();
+            let reach = bound(&to_plane) + bound(&apex.coords);
+            roundings[k] = (1e-9 + SLACK * reach / ahead.abs()) * size + SLACK / ahead.abs();
         }
         let mut rest = left;
         while let Some(k) = next_bit(&mut rest) {
@@ -156,7 +157,8 @@ impl Listed {
             // Of different signs they are behind.
             let may = same_sign(ahead, slope, zero) & ahead.abs().lt(within(slope, best.t));
             if may.any() {
-                best.consider(ahead / slope, lanes.splat(f64::from(*item)), may);
+                let t = ahead / slope;
+                best.consider(t, lanes.splat(f64::from(*item)), may & t.gt(zero));
             }
         }
         let mut asked = among.balls & all.balls;
@@ -301,7 +303,7 @@ impl Listed {
                 continue;
             };
             let most = toward * cosine + (1.0 - toward * toward).max(0.0).sqrt() * sine;
-            if most < -1e-9 && toward < cosine {
+            if most < -1e-7 && toward < cosine {
                 among.planes &= !(1 << k);
             }
         }
@@ -406,4 +408,62 @@ fn next_bit(bits: &mut u64) -> Option<usize> {
     let place = bits.trailing_zeros() as usize;
     *bits &= *bits - 1;
     Some(place)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::lanes::One;
+    use crate::{Candidates, Prepared, Rays};
+    use fastrand::Rng;
+    use lancer_math::{Point, Ray, Vector, unit};
+    use lancer_scene::{Camera, Colour, Scene, Shape, Surface};
+
+    /// Planes through nearly the same points, described by origins far along them.
+    #[test]
+    fn a_plane_behind_another_is_left_out_only_if_it_is() {
+        let mut rng = Rng::with_seed(6);
+        let mut left_out = 0;
+        for case in 0..2000 {
+            let mut next = || 2.0 * rng.f64() - 1.0;
+            let normal = Vector::new(1.0 + 0.2 * next(), next(), next());
+            let across = normal.cross(&Vector::new(next(), next(), 1.0));
+            let far = across * [1e8, 1e3, 1.0, 0.0][case % 4];
+            let near = normal * (1.0 + 0.3 * next());
+            let gap = normal * ([0.0, 1e-12, 1e-3, 0.5][case / 4 % 4] * next());
+            let plane = |at: Vector| {
+                Shape::plane(
+                    [at.x, at.y, at.z],
+                    [normal.x, normal.y, normal.z],
+                    Surface::new(Colour::RED),
+                )
+            };
+            let scene = Scene::builder()
+                .camera(Camera::new([0.0; 3], [1.0, 0.0, 0.0], 1.0, [1, 1]))
+                .shape(plane(near))
+                .shape(plane(near + gap + far))
+                .build();
+            let prepared = Prepared::new(&scene.expect("valid"));
+            let edges = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+                .map(|(y, z)| unit(Vector::new(1.0, 0.05 * y, 0.05 * z)).expect("not zero"));
+            let eye = Point::origin();
+            let among = Candidates::ALL.in_front(&prepared, &eye, &edges);
+            left_out += usize::from(among != Candidates::ALL);
+            for _ in 0..20 {
+                let mut weight = || rng.f64();
+                let way = edges.iter().map(|edge| edge * weight()).sum::<Vector>();
+                let ray = Ray::new(eye, way);
+                let rays = Rays::splat(One, &ray);
+                let hit = prepared.nearest_in_lanes(
+                    &rays,
+                    f64::INFINITY,
+                    crate::lanes::Lanes::mask(One, 1),
+                    (&among, None),
+                );
+                let expected = prepared.nearest(&ray, f64::INFINITY);
+                let found = (hit.item >= 0.0).then_some((hit.t, hit.item as u32));
+                assert_eq!(found, expected.map(|hit| (hit.t, hit.item)), "case {case}");
+            }
+        }
+        assert!(left_out > 500, "{left_out}");
+    }
 }

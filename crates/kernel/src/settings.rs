@@ -14,11 +14,11 @@ pub struct KernelSettings {
 /// default.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Culling {
-    /// The rays of a tile from the eye are held only against what some ray of the
-    /// tile may meet.
+    /// The rays of a tile, from the eye or from mirrors, are held only against what some
+    /// ray of the tile may meet, and not against what is behind something else.
     pub tile_candidates: bool,
     /// Shadow rays of a batch are held only against what stands between the ball
-    /// around their origins and the light.
+    /// around their origins and the light, and rays that leave a ball not against it.
     pub shadow_candidates: bool,
     /// Planes that hide no light from anything are not asked.
     pub idle_planes: bool,

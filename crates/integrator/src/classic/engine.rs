@@ -1,5 +1,6 @@
 use super::lights::Lights;
 use super::tile::{Stage, Tile};
+use crate::engine::in_parts;
 use crate::{Engine, PinholeCamera, RayCounts, Rgb, Tracer, World};
 use lancer_film::Window;
 use lancer_kernel::KernelSettings;
@@ -64,9 +65,6 @@ impl OriginalTracer {
     }
 }
 
-/// The side of the largest tile that travels as one.
-const SIDE: u32 = 16;
-
 impl Tracer for OriginalTracer {
     fn pixel(&self, x: u32, y: u32, counts: &mut RayCounts) -> Rgb {
         let mut pixel = [[0.0; 3]];
@@ -76,23 +74,9 @@ impl Tracer for OriginalTracer {
 
     fn tile(&self, window: Window, pixels: &mut [Rgb], counts: &mut RayCounts) {
         let stage = &self.stage;
-        if window.width <= SIDE && window.height <= SIDE {
-            return dispatch(self.lanes, Tile { stage, window, pixels, counts });
-        }
-        let mut buffer = [[0.0; 3]; (SIDE * SIDE) as usize];
-        for top in (0..window.height).step_by(SIDE as usize) {
-            for left in (0..window.width).step_by(SIDE as usize) {
-                let (width, height) =
-                    (SIDE.min(window.width - left), SIDE.min(window.height - top));
-                let part = Window { x: window.x + left, y: window.y + top, width, height };
-                let colours = &mut buffer[..part.pixels() as usize];
-                dispatch(self.lanes, Tile { stage, window: part, pixels: colours, counts });
-                for (row, y) in colours.chunks_exact(width as usize).zip(top..) {
-                    let start = (y * window.width + left) as usize;
-                    pixels[start..start + row.len()].copy_from_slice(row);
-                }
-            }
-        }
+        in_parts(window, pixels, |window, pixels| {
+            dispatch(self.lanes, Tile { stage, window, pixels, counts });
+        });
     }
 }
 

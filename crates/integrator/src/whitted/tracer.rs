@@ -3,6 +3,7 @@ use super::lights::{Lights, Seen};
 use super::media::{Media, medium, transmittance};
 use super::stops::Stop;
 use super::view::View;
+use crate::engine::in_parts;
 use crate::{RayCounts, Rgb, Tracer};
 use lancer_film::{LayerPixel, Window};
 use lancer_kernel::{KernelSettings, Prepared, SurfacePoint};
@@ -104,7 +105,7 @@ struct Sum<'a> {
 impl WhittedTracer {
     pub(super) fn new(scene: &Scene, cutoff: f64, kernel: &KernelSettings) -> Self {
         let view = View::new(&scene.camera);
-        let prepared = Prepared::new(scene);
+        let prepared = Prepared::with(scene, kernel);
         let around_eye =
             view.eye().map_or_else(Media::default, |eye| Media::new(prepared.solids_at(&eye)));
         Self {
@@ -380,7 +381,7 @@ impl Tracer for WhittedTracer {
             None => !self.prepared.has_transparent(),
         };
         if begins_in_air {
-            return self.stages(tile, pixels, counts);
+            return in_parts(tile, pixels, |tile, pixels| self.stages(tile, pixels, counts));
         }
         for (pixel, index) in pixels.iter_mut().zip(0..) {
             let (x, y) = (tile.x + index % tile.width, tile.y + index / tile.width);

@@ -61,7 +61,7 @@ impl Query {
         let step = d * start;
         let far = from_centre.abs() + step.abs();
         let longest = d.amax();
-        if !(longest > 0.0 && from_centre.sum().is_finite() && d.sum().is_finite()) {
+        if !(longest > 0.0 && from_centre.iter().chain(d.iter()).all(|c| c.is_finite())) {
             return None;
         }
         let Some(power) = power_below(longest).filter(|_| space.scale != 0.0) else {

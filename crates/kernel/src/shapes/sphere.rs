@@ -81,7 +81,8 @@ impl<R: Real> Balls<R> {
         let r2 = self.radius * self.radius;
         let is_outside = (c2 * LESS).gt(r2 + 1e-280);
         let is_through = ((c2 - r2 * LESS) * tame.squared + 1e-80).lt(b * b * LESS);
-        let is_before = (-b).lt(tame.squared * (t_max * LESS));
+        // In directions as they are.
+        let is_before = (-b * tame.unit).lt(tame.squared * (t_max * LESS));
         is_outside & is_through & is_before & b.lt(rays.lanes.splat(0.0))
     }
 
@@ -406,6 +407,44 @@ mod tests {
             });
             assert!(worst <= 1.0 && count > 100_000, "{worst} of {count}");
         }
+    }
+
+    /// What is left out, and what is taken for certain, against the crossings.
+    #[test]
+    fn what_is_certain_is_right() {
+        let mut rng = Rng::with_seed(21);
+        let (mut left_out, mut sure, mut gone) = (0, 0, 0);
+        for case in 0..400_000 {
+            let shape = ball(rng.f64(), -3.0 * rng.f64(), 2.0, 0.1 + rng.f64());
+            let reach = [1.0, 1.0 + 1e-12 * (rng.f64() - 0.5), 2.0 * rng.f64()][case % 3];
+            let target = shape.centre + direction(&mut rng) * (shape.radius * reach);
+            let mut ray = ray_to(&mut rng, &target, shape.radius);
+            ray.direction *= [1.0, 1.0, 1e-200, 1e-120, 1e150, 0.3][case % 6];
+            let (balls, rays) = (Balls::splat(One, &shape), Rays::splat(One, &ray));
+            let tame = rays.tame();
+            let t = balls.crossings(&rays, &tame).ahead(0.0);
+            if !balls.may_meet(&rays, &tame).any() {
+                left_out += 1;
+                assert!(!(t > 0.0 && t < f64::INFINITY), "case {case}: {t}");
+            }
+            let t_max = if t > 0.0 { t * (0.5 + rng.f64()) } else { 1.0 };
+            if balls.surely_meet(&rays, &tame, t_max).any() {
+                sure += 1;
+                assert!(t > 0.0 && t < t_max, "case {case}: {t} {t_max}");
+            }
+            // From the surface outward.
+            let contact = shape.contact(&ray, &Crossing { t, part: 0 });
+            let way = direction(&mut rng);
+            let away = contact.normal * (2.0 * contact.error);
+            let leaving = Ray::new(contact.point + away, way);
+            let rays = Rays::splat(One, &leaving);
+            let tame = rays.tame();
+            if t > 0.0 && !balls.may_come_back(&rays, &tame).any() {
+                gone += 1;
+                assert!(!(balls.crossings(&rays, &tame).ahead(0.0) > 0.0), "case {case}");
+            }
+        }
+        assert!(left_out > 10_000 && sure > 10_000 && gone > 10_000, "{left_out} {sure} {gone}");
     }
 
     #[test]

@@ -22,10 +22,10 @@ use lancer_kernel::Candidates;
 use lancer_kernel::Rays;
 use lancer_kernel::lanes::{Lanes, MOST, Mask, Real, Vectors, Work, dispatch, larger, smaller};
 use lancer_math::{Bounds, Point, Vector};
-use std::cell::RefCell;
+use std::cell::Cell;
 
 thread_local! {
-    static BUFFERS: RefCell<Box<Buffers>> = RefCell::new(Buffers::new());
+    static BUFFERS: Cell<Option<Box<Buffers>>> = const { Cell::new(None) };
 }
 
 /// A tile to be rendered.
@@ -41,10 +41,11 @@ impl WhittedTracer {
     /// The colours of the pixels of a tile, which is no larger than
     /// [`TILE_SIDE`](crate::TILE_SIDE) squared.
     pub(super) fn stages(&self, window: Window, pixels: &mut [Rgb], counts: &mut RayCounts) {
-        BUFFERS.with_borrow_mut(|buffers| {
-            let tile = Tile { tracer: self, window, pixels, counts, buffers };
-            dispatch(self.kernel.lanes, tile);
-        });
+        // Taken, since a shape of the user's own may render a picture to answer.
+        let mut buffers = BUFFERS.take().unwrap_or_else(Buffers::new);
+        let tile = Tile { tracer: self, window, pixels, counts, buffers: &mut buffers };
+        dispatch(self.kernel.lanes, tile);
+        BUFFERS.set(Some(buffers));
     }
 }
 
@@ -231,7 +232,7 @@ impl Tile<'_> {
         (origin, direction): (Vectors<L::Real>, Vectors<L::Real>),
         share: &Vectors<L::Real>,
         asked: L::Mask,
-        (at, depth, outside): (usize, u32, f64),
+        (at, depth, outside): (usize, u32, L::Real),
     ) {
         let zero = lanes.splat(0.0);
         let largest = share.amax();
@@ -248,7 +249,7 @@ impl Tile<'_> {
         let Buffers { group, next, .. } = &mut *self.buffers;
         let Bundle { count, origin: to, direction: way, share: part, pixel, outside: out, .. } =
             &mut **next;
-        lanes.splat(outside).store_packed(matters, &mut out[*count..]);
+        outside.store_packed(matters, &mut out[*count..]);
         pack(&origin, matters, to, *count);
         pack(&direction, matters, way, *count);
         pack(share, matters, part, *count);

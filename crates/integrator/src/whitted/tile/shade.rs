@@ -196,6 +196,9 @@ impl Tile<'_> {
             let mirrored = units(lanes, &mirrored, &facet);
             let away = leaving(lanes, &mirrored, &facet, lanes.load(&sights.error[at..]));
             let origin = load(lanes, &sights.point, at) + facet * away;
+            // Rounding may send a ray that touches to the other side.
+            let is_inside = away.lt(lanes.splat(0.0));
+            let outside = is_inside.select(lanes.splat(-1.0), lanes.splat(outside));
             let share = load(lanes, &group.share, at) * lanes.splat(gloss);
             let asked = first_lanes(lanes, group.count - at);
             self.push(lanes, (origin, mirrored), &share, asked, (at, depth, outside));
