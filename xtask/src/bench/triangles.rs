@@ -176,6 +176,7 @@ fn one(
         count.to_string(),
         built[0].millions(count),
         built[1].millions(count),
+        ((prepared.bytes() + mesh.bytes()) / count.max(1)).to_string(),
         theirs.map_or_else(|| "-".to_owned(), |seconds| number(count as f64 / seconds / 1e6)),
     ]);
 

@@ -78,15 +78,25 @@ impl Shear {
     }
 
     #[inline(always)]
-    fn see(&self, vertex: &Point) -> Seen {
+    fn see(&self, vertex: &[f64; 3]) -> Seen {
         let [i, j, k] = self.axes;
         let (x, y, z) =
-            (vertex[i] - self.origin[i], vertex[j] - self.origin[j], vertex[k] - self.origin[k]);
+            (vertex[0] - self.origin[i], vertex[1] - self.origin[j], vertex[2] - self.origin[k]);
         Seen { x: x - self.slopes[0] * z, y: y - self.slopes[1] * z, z }
     }
 
     #[inline(always)]
     pub(crate) fn meet(&self, corners: &[Point; 3]) -> Option<Meeting> {
+        let [i, j, k] = self.axes;
+        self.meet_turned(&corners.map(
+            #[inline(always)]
+            |corner| [corner[i], corner[j], corner[k]],
+        ))
+    }
+
+    /// The same for corners whose coordinates are in the order of the axes.
+    #[inline(always)]
+    pub(crate) fn meet_turned(&self, corners: &[[f64; 3]; 3]) -> Option<Meeting> {
         let [a, b, c] = [self.see(&corners[0]), self.see(&corners[1]), self.see(&corners[2])];
         // All on the same side: NaN is on none.
         let side = side(b, c);
@@ -115,15 +125,14 @@ impl Shear {
     /// axes, too. Where the ray grazes the triangle, rounding can take it far along
     /// the ray; with this it is never nearer than a box that holds the triangle.
     #[inline(always)]
-    fn in_box(&self, corners: &[Point; 3], mut t: f64) -> f64 {
-        for k in 0..2 {
-            let (axis, component) = (self.axes[k], self.others[k]);
+    fn in_box(&self, corners: &[[f64; 3]; 3], mut t: f64) -> f64 {
+        for (k, (&axis, &component)) in self.axes.iter().zip(&self.others).enumerate() {
             if component != 0.0 {
                 let inverse = 1.0 / component;
                 let origin = self.origin[axis];
-                let a = (corners[0][axis] - origin) * inverse;
-                let b = (corners[1][axis] - origin) * inverse;
-                let c = (corners[2][axis] - origin) * inverse;
+                let a = (corners[0][k] - origin) * inverse;
+                let b = (corners[1][k] - origin) * inverse;
+                let c = (corners[2][k] - origin) * inverse;
                 t = least(t, most(most(a, b), c));
                 t = most(t, least(least(a, b), c));
             }

@@ -11,7 +11,6 @@
 use crate::hierarchy::Hierarchy;
 use crate::lanes::{Answers, Doubles, Eight, lanes_of};
 use crate::shapes::edges::{Meeting, Shear};
-use lancer_math::Point;
 use lancer_scene::Mesh;
 use std::ops::Range;
 
@@ -98,7 +97,9 @@ impl Leaves {
                     |at| filter.lanes.widened(eight(leaf, at)),
                 );
                 for lane in lanes_of(candidates) {
-                    if let Some(meeting) = shear.meet(&corners(leaf, count, lane)) {
+                    if let Some(meeting) =
+                        shear.meet_turned(&corners(leaf, count, lane, shear.axes()))
+                    {
                         met(self.order[places.start + lane], meeting);
                     }
                 }
@@ -111,7 +112,9 @@ impl Leaves {
                     |at| filter.lanes.doubles(eight(leaf, at)),
                 );
                 for lane in lanes_of(candidates) {
-                    if let Some(meeting) = shear.meet(&corners(leaf, count, lane)) {
+                    if let Some(meeting) =
+                        shear.meet_turned(&corners(leaf, count, lane, shear.axes()))
+                    {
                         met(self.order[places.start + lane], meeting);
                     }
                 }
@@ -133,14 +136,20 @@ fn eight<T>(leaf: &[T; READABLE], at: usize) -> &[T; 8] {
     )
 }
 
-/// The corners of a leaf's triangle.
+/// The corners of a leaf's triangle, their coordinates in the order of the axes: no
+/// array is written and then read at places that only the ray tells.
 #[inline(always)]
-fn corners<T: Copy + Into<f64>>(leaf: &[T; READABLE], count: usize, lane: usize) -> [Point; 3] {
+fn corners<T: Copy + Into<f64>>(
+    leaf: &[T; READABLE],
+    count: usize,
+    lane: usize,
+    [x, y, z]: [usize; 3],
+) -> [[f64; 3]; 3] {
     let number = |row: usize| leaf[(row * count + lane) % READABLE].into();
     [
-        Point::new(number(0), number(1), number(2)),
-        Point::new(number(3), number(4), number(5)),
-        Point::new(number(6), number(7), number(8)),
+        [number(x), number(y), number(z)],
+        [number(3 + x), number(3 + y), number(3 + z)],
+        [number(6 + x), number(6 + y), number(6 + z)],
     ]
 }
 
