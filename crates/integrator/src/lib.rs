@@ -28,6 +28,7 @@ mod counts;
 mod direct;
 mod engine;
 mod render;
+mod rows;
 mod whitted;
 
 pub use classic::camera::PinholeCamera;

@@ -1,3 +1,5 @@
+use crate::lanes::{One, Real, Vectors};
+use crate::shapes::exact::{two_products, two_sums};
 use lancer_math::{Point, Ray, Vector};
 
 /// A ray seen from a point near what it may meet: its origin moved along it to
@@ -73,27 +75,32 @@ pub(crate) fn ordinary(direction: &Vector) -> (Vector, f64) {
 /// place of the result and not of the terms.
 #[inline]
 pub(crate) fn stepped(origin: &Point, centre: &Point, t: f64, direction: &Vector) -> Vector {
-    Vector::new(
-        moved(origin.x, centre.x, t, direction.x),
-        moved(origin.y, centre.y, t, direction.y),
-        moved(origin.z, centre.z, t, direction.z),
-    )
+    let [origin, centre] = [origin, centre].map(|p| Vectors::splat_point(One, p));
+    steps(&origin, &centre, t, &Vectors::splat(One, direction)).lane(0)
+}
+
+/// The same in lanes.
+#[inline(always)]
+pub(crate) fn steps<R: Real>(
+    origin: &Vectors<R>,
+    centre: &Vectors<R>,
+    t: R,
+    direction: &Vectors<R>,
+) -> Vectors<R> {
+    Vectors {
+        x: moved(origin.x, centre.x, t, direction.x),
+        y: moved(origin.y, centre.y, t, direction.y),
+        z: moved(origin.z, centre.z, t, direction.z),
+    }
 }
 
 /// o - c + t d for one coordinate.
-#[inline]
-fn moved(o: f64, c: f64, t: f64, d: f64) -> f64 {
-    let difference = o - c;
-    // Two-sum: what the difference lost.
-    let back = difference - o;
-    let lost = (o - (difference - back)) - (c + back);
-    // Two-product: what the step lost.
-    let step = t * d;
-    let step_lost = t.mul_add(d, -step);
+#[inline(always)]
+fn moved<R: Real>(o: R, c: R, t: R, d: R) -> R {
+    let (difference, lost) = two_sums(o, -c);
+    let (step, step_lost) = two_products(t, d);
     // The sum of both may cancel; what it loses is small against what is left.
-    let sum = difference + step;
-    let back = sum - difference;
-    let sum_lost = (difference - (sum - back)) + (step - back);
+    let (sum, sum_lost) = two_sums(difference, step);
     sum + (sum_lost + (lost + step_lost))
 }
 

@@ -2,9 +2,9 @@
 //! side with those of the others.
 
 use super::bundle::{Around, Cone};
-use super::rows::{BATCH, Row, Triples, ZEROS};
 use super::tile::MOST_MIRRORS;
 use super::world::Candidates;
+use crate::rows::{BATCH, Row, Triples, ZEROS};
 use lancer_kernel::lanes::MOST;
 use std::ops::Range;
 

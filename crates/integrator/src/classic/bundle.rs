@@ -5,10 +5,9 @@
 //! up to.
 
 use super::lights::Light;
-use super::rows::Triples;
-use super::vectors::Vectors;
 use super::world::{Candidates, World};
-use lancer_kernel::lanes::{Lanes, MOST, Mask, Real, lanes_of};
+use crate::rows::Triples;
+use lancer_kernel::lanes::{Lanes, MOST, Mask, Real, Vectors, lanes_of, smaller};
 use lancer_math::Vector;
 use std::ops::Range;
 
@@ -45,21 +44,10 @@ fn fold<R: Real>(register: R, fold: fn(f64, f64) -> f64, width: usize) -> f64 {
     all
 }
 
-#[inline(always)]
-fn min<R: Real>(a: R, b: R) -> R {
-    a.lt(b).select(a, b)
-}
-
+/// The larger one; the second where one is not a number.
 #[inline(always)]
 fn max<R: Real>(a: R, b: R) -> R {
     a.gt(b).select(a, b)
-}
-
-/// The lanes from `i` on that are before `end`.
-#[inline(always)]
-pub(super) fn valid<L: Lanes>(i: usize, end: usize) -> u32 {
-    let all = (1 << L::WIDTH) - 1;
-    if i + L::WIDTH <= end { all } else { all & ((1 << (end - i)) - 1) }
 }
 
 /// Calls `each` with registers that hold all of a range, some perhaps twice.
@@ -71,7 +59,7 @@ fn each_register<L: Lanes>(
     mut each: impl FnMut(Vectors<L::Real>),
 ) {
     if range.len() < L::WIDTH {
-        let valid = lanes.mask(valid::<L>(range.start, range.end));
+        let valid = lanes.first(range.end - range.start);
         let v = from.load(lanes, range.start);
         let first = Vectors::splat(lanes, &v.lane(0));
         each(Vectors {
@@ -108,8 +96,11 @@ impl Around {
             range,
             #[inline(always)]
             |p| {
-                least =
-                    Vectors { x: min(p.x, least.x), y: min(p.y, least.y), z: min(p.z, least.z) };
+                least = Vectors {
+                    x: smaller(p.x, least.x),
+                    y: smaller(p.y, least.y),
+                    z: smaller(p.z, least.z),
+                };
                 most = Vectors { x: max(p.x, most.x), y: max(p.y, most.y), z: max(p.z, most.z) };
             },
         );
@@ -158,17 +149,17 @@ impl Around {
                 y: lanes.load(&places.y[i..]),
                 z: lanes.load(&places.z[i..]),
             };
-            let v = v.minus(&centre);
+            let v = v - centre;
             let step = v.dot(&way) / lanes.splat(length_squared);
             let step = max(step, zero);
-            let step = if light.is_lamp { min(step, one) } else { step };
-            let away = v.minus(&Vectors { x: way.x * step, y: way.y * step, z: way.z * step });
+            let step = if light.is_lamp { smaller(step, one) } else { step };
+            let away = v - way * step;
             let reach = lanes.load(&places.radius[i..]) + self.radius;
             let size = v.norm_squared() + reach_squared;
             let bound = reach * reach + (reach * reach + size) * (4.0 * SLACK);
             // Not NaN, nor the lanes behind the last sphere.
             let too_far = away.norm_squared().gt(bound) | reach.lt(zero);
-            for k in lanes_of((!too_far).bits() & valid::<L>(i, places.count)) {
+            for k in lanes_of((!too_far).bits() & lanes.first(places.count - i).bits()) {
                 suspects.push((i + k) as u32);
             }
         }
@@ -187,7 +178,7 @@ impl Cone {
             directions,
             range.clone(),
             #[inline(always)]
-            |d| sum = sum.plus(&d),
+            |d| sum = sum + d,
         );
         let add = |a: f64, b: f64| a + b;
         let sum = Vector::new(
@@ -203,7 +194,7 @@ impl Cone {
             directions,
             range,
             #[inline(always)]
-            |d| cosine = min(d.dot(&axes), cosine),
+            |d| cosine = smaller(d.dot(&axes), cosine),
         );
         Self::around(axis, fold(cosine, f64::min, L::WIDTH))
     }
@@ -215,7 +206,7 @@ impl Cone {
         let axis = sum / sum.norm();
         let mut cosine = 1.0;
         for corner in corners {
-            cosine = min(corner.dot(&axis), cosine);
+            cosine = smaller(corner.dot(&axis), cosine);
         }
         Self::around(axis, cosine)
     }
@@ -278,14 +269,14 @@ impl Cone {
                 y: lanes.load(&places.y[i..]),
                 z: lanes.load(&places.z[i..]),
             };
-            let v = v.minus(&centre);
+            let v = v - centre;
             let along = v.dot(&axis);
             let squared = v.norm_squared();
             let across = max(squared - along * along, lanes.splat(0.0)).sqrt();
             let distance = across * self.cosine - along * self.sine;
             let reach = lanes.load(&places.radius[i..]) + from.radius;
             let bound = reach + (reach + squared.sqrt()) * SLACK;
-            for k in lanes_of((!distance.gt(bound)).bits() & valid::<L>(i, places.count)) {
+            for k in lanes_of((!distance.gt(bound)).bits() & lanes.first(places.count - i).bits()) {
                 found.push((i + k) as u32);
             }
         }

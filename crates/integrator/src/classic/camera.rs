@@ -1,6 +1,6 @@
 use super::naive_unit;
-use super::vectors::Vectors;
-use lancer_kernel::lanes::{Lanes, One};
+use super::vectors::{after, unit};
+use lancer_kernel::lanes::{Lanes, One, Vectors};
 use lancer_math::{Point, Ray, Vector};
 use lancer_scene::Camera;
 
@@ -70,10 +70,10 @@ impl PinholeCamera {
         y: u32,
     ) -> Vectors<L::Real> {
         let latitude = (self.middle_row - f64::from(y)) * self.row_height;
-        let middle: Vector = Vectors::from(self.ahead).after(latitude, &self.up.into()).into();
+        let middle: Vector = after(&self.ahead.into(), latitude, &self.up.into()).into();
         let longitude = (columns - self.middle_column) * self.column_width;
         let right = Vectors::splat(lanes, &self.right);
-        Vectors::splat(lanes, &middle).after(longitude, &right).unit(lanes)
+        unit(lanes, &after(&Vectors::splat(lanes, &middle), longitude, &right))
     }
 
     /// Where all rays start.

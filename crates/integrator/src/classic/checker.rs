@@ -1,8 +1,7 @@
 //! Which of its two colours a checker shows.
 
 use super::naive_unit;
-use super::vectors::Vectors;
-use lancer_kernel::lanes::{Lanes, Mask, Real};
+use lancer_kernel::lanes::{Lanes, Mask, Real, Vectors};
 use lancer_math::Vector;
 
 /// The smallest double not below sin(k / 2), for k = 1, 2, 3: from there on

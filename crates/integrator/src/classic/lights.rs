@@ -3,10 +3,9 @@
 use super::naive_unit;
 use super::plane::Half;
 use super::sphere::Ways;
-use super::vectors::Vectors;
 use super::world::World;
 use lancer_kernel::Culling;
-use lancer_kernel::lanes::{Lanes, MOST, Mask, One, Real, lanes_of};
+use lancer_kernel::lanes::{Lanes, MOST, Mask, One, Real, Vectors, lanes_of};
 use lancer_math::{Point, Ray, Vector, elementary};
 use lancer_scene::Scene;
 
@@ -155,7 +154,7 @@ impl Light {
     ) -> Ways<L::Real> {
         let place = Vectors::splat(lanes, &self.place);
         if self.is_lamp {
-            let vectors = place.minus(origins);
+            let vectors = place - *origins;
             let lengths_squared = vectors.norm_squared();
             Ways { origins: *origins, vectors, lengths_squared }
         } else {

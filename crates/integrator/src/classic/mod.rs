@@ -10,7 +10,6 @@ pub(crate) mod engine;
 mod lights;
 mod plane;
 mod refusals;
-mod rows;
 mod sphere;
 mod surfaces;
 mod tile;

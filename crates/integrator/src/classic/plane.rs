@@ -1,8 +1,7 @@
 use super::checker;
 use super::naive_unit;
-use super::vectors::Vectors;
 use crate::classic::sphere::Ways;
-use lancer_kernel::lanes::{Lanes, Real};
+use lancer_kernel::lanes::{Lanes, Real, Vectors};
 use lancer_math::{Point, Vector};
 
 /// A plane made ready for rays: it is met only by those that go against its
@@ -67,7 +66,7 @@ impl Half {
         lanes: L,
         points: &Vectors<L::Real>,
     ) -> L::Mask {
-        let offsets = points.minus(&Vectors::splat(lanes, &self.origin.coords));
+        let offsets = *points - Vectors::splat(lanes, &self.origin.coords);
         checker::on_plane(lanes, &offsets, &self.axes)
     }
 }

@@ -1,5 +1,5 @@
-use super::vectors::Vectors;
-use lancer_kernel::lanes::{Lanes, Real};
+use super::vectors::unit;
+use lancer_kernel::lanes::{Lanes, Real, Vectors};
 use lancer_math::{Point, Vector};
 
 /// A sphere made ready for rays.
@@ -29,7 +29,7 @@ impl Ball {
     /// the tangents.
     #[inline(always)]
     fn from<L: Lanes>(&self, lanes: L, origins: &Vectors<L::Real>) -> (Vectors<L::Real>, L::Real) {
-        let v = Vectors::splat(lanes, &self.centre).minus(origins);
+        let v = Vectors::splat(lanes, &self.centre) - *origins;
         let x = v.x.mul_add(v.x, lanes.splat(-self.radius_squared));
         (v, v.z.mul_add(v.z, v.y.mul_add(v.y, x)))
     }
@@ -103,7 +103,7 @@ impl Ball {
         lanes: L,
         points: &Vectors<L::Real>,
     ) -> Vectors<L::Real> {
-        points.minus(&Vectors::splat(lanes, &self.centre)).unit(lanes)
+        unit(lanes, &(*points - Vectors::splat(lanes, &self.centre)))
     }
 }
 

@@ -1,15 +1,15 @@
 //! The stages from what rays meet to the rays that leave mirrors there.
 
 use super::buffers::{Buffers, Bundle, Group, Met};
-use super::bundle::{Around, valid};
+use super::bundle::Around;
 use super::checker;
 use super::lights::Suspects;
-use super::rows::{load, pack, store};
 use super::tile::{MOST_MIRRORS, Stage, in_codes};
-use super::vectors::Vectors;
+use super::vectors;
 use super::world::custom_normal;
 use crate::RayCounts;
-use lancer_kernel::lanes::{Lanes, MOST, Mask, Real, lanes_of};
+use crate::rows::{load, pack, store};
+use lancer_kernel::lanes::{Lanes, MOST, Mask, Real, Vectors, lanes_of};
 
 /// A mirror whose share of the pixel is smaller is shown matte.
 const LEAST_SHARE: f64 = 0.01;
@@ -54,7 +54,7 @@ impl Stage {
                     let (mut x, mut y, mut z) = ([0.0; MOST], [0.0; MOST], [0.0; MOST]);
                     let mut bits = 0;
                     let d = directions.load(lanes, i);
-                    for k in lanes_of(valid::<L>(i, range.end)) {
+                    for k in lanes_of(lanes.first(range.end - i).bits()) {
                         let custom = &*self.world.customs[custom];
                         let (n, second) = custom_normal(custom, p.lane(k), d.lane(k), checked);
                         (x[k], y[k], z[k]) = (n.x, n.y, n.z);
@@ -68,7 +68,7 @@ impl Stage {
                 let mut mirrors = zero;
                 let mut wants = one;
                 if may_mirror {
-                    let m = directions.load(lanes, i).mirrored(&n);
+                    let m = vectors::mirrored(&directions.load(lanes, i), &n);
                     mirrored.store(lanes, i, &m);
                     let shown = load(lanes, &met.share, i).ge(lanes.splat(LEAST_SHARE));
                     mirrors = shown.select(one, zero);
@@ -118,7 +118,7 @@ impl Stage {
             for i in range.clone().step_by(L::WIDTH) {
                 let p = met.points.load(lanes, i);
                 let n = met.normals.load(lanes, i);
-                let valid = lanes.mask(valid::<L>(i, range.end));
+                let valid = lanes.first(range.end - i);
                 let matters = load(lanes, &met.wants, i).gt(zero) & valid;
                 let wants = if self.culling.full_mirrors { matters } else { valid };
                 let mirrors = load(lanes, &met.mirrors, i).gt(zero) & valid;
@@ -228,7 +228,7 @@ impl Stage {
                 let start = rays.count;
                 for i in range.clone().step_by(L::WIDTH) {
                     let mirrors = load(lanes, &met.mirrors, i).gt(lanes.splat(0.0));
-                    let mask = mirrors & lanes.mask(valid::<L>(i, range.end));
+                    let mask = mirrors & lanes.first(range.end - i);
                     let count = rays.count;
                     rays.origins.pack(lanes, count, &met.points.load(lanes, i), mask);
                     rays.directions.pack(lanes, count, &met.mirrored.load(lanes, i), mask);

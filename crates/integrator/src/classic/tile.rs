@@ -3,16 +3,16 @@
 //! so on; in the end the colours are folded, deepest mirrors first.
 
 use super::buffers::{Buffers, Bundle, Level};
-use super::bundle::{Around, Cone, valid};
+use super::bundle::{Around, Cone};
 use super::camera::PinholeCamera;
 use super::lights::{Beacon, Lights};
-use super::rows::{BATCH, load, pack, store};
-use super::vectors::Vectors;
+use super::vectors::after;
 use super::world::World;
+use crate::rows::{BATCH, load, pack, store};
 use crate::{RayCounts, Rgb};
 use lancer_film::Window;
 use lancer_kernel::Culling;
-use lancer_kernel::lanes::{Lanes, MOST, Mask, One, Real, Work};
+use lancer_kernel::lanes::{Lanes, MOST, Mask, One, Real, Vectors, Work};
 use lancer_math::Vector;
 use std::cell::Cell;
 
@@ -173,7 +173,7 @@ impl Stage {
             for i in range.clone().step_by(L::WIDTH) {
                 let origins = rays.origins.load(lanes, i);
                 let directions = rays.directions.load(lanes, i);
-                let asked = valid::<L>(i, range.end);
+                let asked = lanes.first(range.end - i).bits();
                 let nearest = self.world.meet(lanes, candidates, &origins, &directions, asked);
                 store(lanes, &mut met.distance, i, nearest.distance);
                 store(lanes, &mut met.index, i, nearest.index);
@@ -191,7 +191,7 @@ impl Stage {
         // Lanes that have no place yet.
         let mut rest = [0_u8; BATCH + MOST];
         for (r, rest) in rest.iter_mut().enumerate().take(registers) {
-            *rest = valid::<L>(r * L::WIDTH, rays.count) as u8;
+            *rest = lanes.first(rays.count - r * L::WIDTH).bits() as u8;
         }
         met.parts.clear();
         let (mut first, mut count) = (0, 0);
@@ -213,7 +213,7 @@ impl Stage {
                 let mask = lanes.mask(bits);
                 let directions = rays.directions.load(lanes, i);
                 let distance = load(lanes, &met.distance, i);
-                let points = rays.origins.load(lanes, i).after(distance, &directions);
+                let points = after(&rays.origins.load(lanes, i), distance, &directions);
                 met.points.pack(lanes, count, &points, mask);
                 met.directions.pack(lanes, count, &directions, mask);
                 pack(lanes, &mut met.glow, count, load(lanes, &rays.glow, i), mask);

@@ -1,8 +1,8 @@
 use super::plane::Half;
 use super::sphere::{Ball, Places};
-use super::vectors::Vectors;
+use super::vectors::after;
 use crate::Rgb;
-use lancer_kernel::lanes::{Lanes, Mask, One, Real, lanes_of};
+use lancer_kernel::lanes::{Lanes, Mask, One, Real, Vectors, lanes_of};
 use lancer_math::{Point, Ray, Vector};
 use lancer_scene::{Colour, CustomShape, Geometry, Pattern, Scene, Surface};
 use std::sync::Arc;
@@ -208,7 +208,7 @@ impl World {
     /// The point that was hit, with all that shading needs.
     #[must_use]
     pub fn expand(&self, ray: &Ray, hit: Hit) -> SurfacePoint {
-        let point = Vectors::from(ray.origin.coords).after(hit.distance, &ray.direction.into());
+        let point = after(&ray.origin.coords.into(), hit.distance, &ray.direction.into());
         let look = self.looks[hit.index];
         let checked = look.second.is_some();
         let plane = hit.index.wrapping_sub(self.spheres.len());

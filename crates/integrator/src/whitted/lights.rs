@@ -141,7 +141,10 @@ impl Lights {
             if let From::Point(lamp) = &light.place {
                 ray.direction = lamp - ray.origin;
             }
-            let arrives = self.transmitted(prepared, &ray, t_max, seen.media, counts, place);
+            if prepared.any(&ray, t_max, Which::Opaque) {
+                continue;
+            }
+            let arrives = self.through(prepared, &ray, t_max, seen.media, counts, place);
             for (sum, arrives) in sum.iter_mut().zip(arrives) {
                 // Nothing of something infinite is nothing.
                 if arrives != 0.0 {
@@ -152,23 +155,8 @@ impl Lights {
         sum
     }
 
-    /// What of the light arrives that goes along a ray, against it, from `t_max`.
-    fn transmitted(
-        &self,
-        prepared: &Prepared,
-        ray: &Ray,
-        t_max: f64,
-        media: &Media,
-        counts: &mut RayCounts,
-        place: Place,
-    ) -> Rgb64 {
-        if prepared.any(ray, t_max, Which::Opaque) {
-            return [0.0; 3];
-        }
-        self.through(prepared, ray, t_max, media, counts, place)
-    }
-
-    /// The same where nothing opaque is in the way.
+    /// What of the light arrives that goes along a ray, against it, from `t_max`, where
+    /// nothing opaque is in the way.
     pub(super) fn through(
         &self,
         prepared: &Prepared,

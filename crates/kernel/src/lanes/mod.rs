@@ -89,6 +89,12 @@ pub trait Lanes: Eight + Debug + Send + Sync + 'static {
     /// The answers of the bits, the lowest one for the first lane.
     fn mask(self, bits: u32) -> Self::Mask;
 
+    /// Yes in the first `count` lanes, or in all where there are no more.
+    #[inline(always)]
+    fn first(self, count: usize) -> Self::Mask {
+        self.mask((1 << count.min(Self::WIDTH)) - 1)
+    }
+
     /// Runs `work`, and what is inlined into it, with the processor's
     /// instructions. [`dispatch`] does; another function that is not inlined
     /// needs it again.

@@ -52,10 +52,10 @@ impl<R: Real> Vectors<R> {
         Vector::new(self.x.lane(k), self.y.lane(k), self.z.lane(k))
     }
 
-    /// x x' + (y y' + z z'), in that order and each sum fused.
+    /// The sum of the products, from the first coordinate to the last, each sum fused.
     #[inline(always)]
     pub fn dot(&self, other: &Self) -> R {
-        self.x.mul_add(other.x, self.y.mul_add(other.y, self.z * other.z))
+        self.z.mul_add(other.z, self.y.mul_add(other.y, self.x * other.x))
     }
 
     /// The dot product with itself.
@@ -111,6 +111,20 @@ pub fn larger<R: Real>(a: R, b: R) -> R {
 #[inline(always)]
 pub fn smaller<R: Real>(a: R, b: R) -> R {
     a.lt(b).select(a, b)
+}
+
+impl From<Vector> for Vectors<f64> {
+    #[inline(always)]
+    fn from(v: Vector) -> Self {
+        Self { x: v.x, y: v.y, z: v.z }
+    }
+}
+
+impl From<Vectors<f64>> for Vector {
+    #[inline(always)]
+    fn from(v: Vectors<f64>) -> Self {
+        Self::new(v.x, v.y, v.z)
+    }
 }
 
 impl<R: Real> Add for Vectors<R> {

@@ -13,7 +13,7 @@ use crate::{Hit, Rays};
 use lancer_math::{Point, Ray, Vector};
 use lancer_scene::{Checker, Geometry, Shape};
 
-/// More spheres than these are met through their hierarchy.
+/// More spheres than these are met by one ray at a time, many spheres at once.
 const MOST_SPHERES: usize = 16;
 
 /// A scene's own spheres and its planes, each kind if it is few, and which are.
@@ -37,9 +37,13 @@ pub(super) fn listed(shapes: &[Shape]) -> (Listed, Known) {
     let mut listed = Listed::default();
     for (item, shape) in (0..).zip(shapes) {
         let is_transparent = shape.surface.is_transparent();
-        if let Some(ball) = ball(shape).filter(|_| known.spheres) {
+        if known.spheres
+            && let Some(ball) = ball(shape)
+        {
             listed.add_ball(item, ball, is_transparent);
-        } else if let Some(plane) = plane(shape).filter(|_| known.planes) {
+        } else if known.planes
+            && let Some(plane) = plane(shape)
+        {
             listed.add_plane(item, plane, is_transparent);
         }
     }

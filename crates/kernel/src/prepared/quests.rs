@@ -14,10 +14,22 @@ use crate::shapes::mesh::Facets;
 use crate::shapes::sphere::Balls;
 use lancer_math::Ray;
 
-/// The lanes of so many.
+/// Where spheres are crossed first ahead and before `to`, and in which lanes.
 #[inline(always)]
-fn first<L: Lanes>(lanes: L, count: usize) -> L::Mask {
-    lanes.mask((1 << count.min(L::WIDTH)) - 1)
+fn first_ahead<L: Lanes>(
+    balls: &Balls<L::Real>,
+    count: usize,
+    (rays, tame): (&Rays<L>, &Tame<L::Real>),
+    to: f64,
+) -> Option<(L::Real, L::Mask)> {
+    let lanes = rays.lanes;
+    let may = balls.may_meet(rays, tame) & lanes.first(count);
+    if !may.any() {
+        return None;
+    }
+    let zero = lanes.splat(0.0);
+    let t = balls.crossings(rays, tame).ahead(zero);
+    Some((t, may & t.gt(zero) & t.lt(lanes.splat(to))))
 }
 
 /// Where planes are crossed ahead, and in which lanes.
@@ -119,14 +131,10 @@ impl Quest for Nearest {
         &mut self,
         balls: &Balls<L::Real>,
         names: &[Name],
-        (rays, tame): (&Rays<L>, &Tame<L::Real>),
+        rays: (&Rays<L>, &Tame<L::Real>),
         first_item: u32,
     ) {
-        let may = balls.may_meet(rays, tame) & first(rays.lanes, names.len());
-        if may.any() {
-            let zero = rays.lanes.splat(0.0);
-            let t = balls.crossings(rays, tame).ahead(zero);
-            let met = may & t.gt(zero) & t.lt(rays.lanes.splat(self.to));
+        if let Some((t, met)) = first_ahead(balls, names.len(), rays, self.to) {
             self.lanes(t, met, |lane| first_item + names[lane].shape());
         }
     }
@@ -205,14 +213,10 @@ impl Quest for Any {
         &mut self,
         balls: &Balls<L::Real>,
         names: &[Name],
-        (rays, tame): (&Rays<L>, &Tame<L::Real>),
+        rays: (&Rays<L>, &Tame<L::Real>),
         _first: u32,
     ) {
-        let may = balls.may_meet(rays, tame) & first(rays.lanes, names.len());
-        if may.any() {
-            let zero = rays.lanes.splat(0.0);
-            let t = balls.crossings(rays, tame).ahead(zero);
-            let met = may & t.gt(zero) & t.lt(rays.lanes.splat(self.t_max));
+        if let Some((_, met)) = first_ahead(balls, names.len(), rays, self.t_max) {
             self.lanes(met.bits(), |lane| names[lane].is_transparent());
         }
     }
@@ -296,7 +300,7 @@ impl Quest for All<'_> {
         (rays, tame): (&Rays<L>, &Tame<L::Real>),
         first_item: u32,
     ) {
-        let may = balls.may_meet_line(rays, tame) & first(rays.lanes, names.len());
+        let may = balls.may_meet_line(rays, tame) & rays.lanes.first(names.len());
         let pairs = balls.crossings(rays, tame);
         for lane in lanes_of(may.bits()) {
             if self.which.has(names[lane].is_transparent()) {

@@ -7,7 +7,7 @@
 //! Computation of 2 x 2 Determinants*, 2013). All hold as long as no product
 //! leaves the range of a double, downwards with its last bits.
 
-use crate::lanes::{Real, Vectors};
+use crate::lanes::Real;
 use lancer_math::Vector;
 
 /// The rounded product, and the exact product minus it.
@@ -30,30 +30,6 @@ pub(crate) fn two_sums<R: Real>(a: R, b: R) -> (R, R) {
 pub(crate) fn two_products<R: Real>(a: R, b: R) -> (R, R) {
     let product = a * b;
     (product, a.mul_add(b, -product))
-}
-
-/// [`stepped`](crate::near::stepped) in lanes: origin - centre + t direction.
-#[inline(always)]
-pub(crate) fn steps<R: Real>(
-    origin: &Vectors<R>,
-    centre: &Vectors<R>,
-    t: R,
-    direction: &Vectors<R>,
-) -> Vectors<R> {
-    Vectors {
-        x: moved(origin.x, centre.x, t, direction.x),
-        y: moved(origin.y, centre.y, t, direction.y),
-        z: moved(origin.z, centre.z, t, direction.z),
-    }
-}
-
-#[inline(always)]
-fn moved<R: Real>(o: R, c: R, t: R, d: R) -> R {
-    let (difference, lost) = two_sums(o, -c);
-    let (step, step_lost) = two_products(t, d);
-    // The sum of both may cancel; what it loses is small against what is left.
-    let (sum, sum_lost) = two_sums(difference, step);
-    sum + (sum_lost + (lost + step_lost))
 }
 
 /// a b - c d, of which cancellation takes no digits.

@@ -6,7 +6,7 @@ mod cone;
 mod cuboid;
 mod custom;
 mod edges;
-mod exact;
+pub(crate) mod exact;
 mod flat;
 mod frame;
 pub(crate) mod mesh;

@@ -14,11 +14,12 @@
 //! Touching (|p| = r) counts as two crossings at one place. A radius or a distance
 //! whose square is no number is beyond what can be met.
 
-use super::exact::{steps, two_products, two_sums};
+use super::exact::{two_products, two_sums};
 use crate::Crossing;
 use crate::checker;
 use crate::crossing::Crossings;
 use crate::lanes::{Lanes, Mask, One, Real, Vectors};
+use crate::near::steps;
 use crate::primitive::{Cell, Contact, Primitive};
 use crate::rays::{Pairs, Rays, Tame};
 use lancer_math::{Bounds, Point, Ray, Vector};
