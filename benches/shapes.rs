@@ -4,7 +4,8 @@
 use divan::Bencher;
 use divan::counter::ItemsCount;
 use fastrand::Rng;
-use lancer_kernel::Prepared;
+use lancer_kernel::lanes::Width;
+use lancer_kernel::{KernelSettings, Prepared};
 use lancer_math::{Point, Ray, Vector};
 use lancer_scene::{Camera, Colour, InvalidField, Mesh, Scene, Shape, Surface};
 use std::sync::Arc;
@@ -42,19 +43,36 @@ fn main() {
 
 #[divan::bench(args = SHAPES.iter().map(|(name, _)| *name))]
 fn nearest(bencher: Bencher<'_, '_>, name: &str) {
+    shape(bencher, name, &KernelSettings::default());
+}
+
+/// Shapes that are met in lanes, with lanes of each width.
+#[divan::bench(args = by_lanes())]
+fn nearest_by_lanes(bencher: Bencher<'_, '_>, case: &str) {
+    let (name, lanes) = case.split_once(' ').expect("two words");
+    let lanes = Width::by_name(lanes).expect("the processor has them");
+    shape(bencher, name, &KernelSettings { lanes, ..KernelSettings::default() });
+}
+
+fn by_lanes() -> impl Iterator<Item = String> {
+    ["sphere", "plane", "mesh"].into_iter().flat_map(|name| {
+        Width::available().into_iter().map(move |lanes| format!("{name} {}", lanes.name()))
+    })
+}
+
+fn shape(bencher: Bencher<'_, '_>, name: &str, settings: &KernelSettings) {
     let (_, make) = SHAPES.iter().find(|(other, _)| *other == name).expect("it is listed");
     let scene = Scene::builder()
         .camera(Camera::new([0.0, -4.0, 0.0], [0.0; 3], 1.0, [4, 3]))
         .shape(make(Surface::new(Colour::GREY)))
         .build()
         .expect("it is valid");
-    let prepared = Prepared::new(&scene);
+    let prepared = Prepared::with(&scene, settings);
     let rays = rays();
-    bencher.counter(ItemsCount::new(RAYS)).bench(|| {
-        rays.iter()
-            .filter_map(|ray| prepared.nearest(ray, f64::INFINITY))
-            .map(|hit| hit.t)
-            .sum::<f64>()
+    let mut hits = vec![None; RAYS];
+    bencher.counter(ItemsCount::new(RAYS)).bench_local(|| {
+        prepared.nearest_each(&rays, f64::INFINITY, &mut hits);
+        hits.iter().flatten().map(|hit| hit.t).sum::<f64>()
     });
 }
 

@@ -75,9 +75,9 @@ fn shadow_rays(bencher: Bencher<'_, '_>) {
         .bench(|| rays.iter().filter(|ray| prepared.any(ray, 1.0, Which::All)).count());
 }
 
-#[divan::bench]
-fn rays_among_spheres(bencher: Bencher<'_, '_>) {
-    let scene = generated::spheres(SPHERES).expect("they are valid");
+#[divan::bench(args = [16, 64, 65, 128, SPHERES])]
+fn rays_among_spheres(bencher: Bencher<'_, '_>, spheres: usize) {
+    let scene = generated::spheres(spheres).expect("they are valid");
     nearest(bencher, &Prepared::new(&scene), &primary());
 }
 

@@ -26,6 +26,7 @@
 mod classic;
 mod counts;
 mod direct;
+mod enclose;
 mod engine;
 mod render;
 mod rows;

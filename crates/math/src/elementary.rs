@@ -15,13 +15,6 @@
 #[inline]
 #[must_use]
 pub fn exp(x: f64) -> f64 {
-    exp_each([x])[0]
-}
-
-/// [`exp`] of each number, with the same bits; faster than one by one.
-#[inline]
-#[must_use]
-pub fn exp_each<const N: usize>(x: [f64; N]) -> [f64; N] {
     /// Adding and subtracting it rounds to a whole number, which is then in the
     /// lowest bits.
     const ROUND: f64 = 6_755_399_441_055_744.0; // 1.5 * 2^52
@@ -31,33 +24,29 @@ pub fn exp_each<const N: usize>(x: [f64; N]) -> [f64; N] {
     const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;
 
     // Not for NaN either.
-    if !x.iter().all(|x| *x > -708.0 && *x < 709.0) {
-        return x.map(|x| if x > -708.0 && x < 709.0 { exp(x) } else { libm::exp(x) });
+    if !(x > -708.0 && x < 709.0) {
+        return libm::exp(x);
     }
-    let mut result = [0.0; N];
-    for (x, result) in x.iter().zip(&mut result) {
-        let rounded = x * std::f64::consts::LOG2_E + ROUND;
-        let k = rounded - ROUND;
-        let r = (x - k * LN_2_HIGH) - k * LN_2_LOW;
-        // Estrin's order: pairs, pairs of pairs, and so on.
-        let r2 = r * r;
-        let r4 = r2 * r2;
-        let p23 = 1.0 / 2.0 + r * (1.0 / 6.0);
-        let p45 = 1.0 / 24.0 + r * (1.0 / 120.0);
-        let p67 = 1.0 / 720.0 + r * (1.0 / 5040.0);
-        let p89 = 1.0 / 40_320.0 + r * (1.0 / 362_880.0);
-        let pab = 1.0 / 3_628_800.0 + r * (1.0 / 39_916_800.0);
-        let pcd = 1.0 / 479_001_600.0 + r * (1.0 / 6_227_020_800.0);
-        let low = p23 + r2 * p45;
-        let middle = p67 + r2 * p89;
-        let high = pab + r2 * pcd;
-        let tail = low + r4 * (middle + r4 * high);
-        let power = 1.0 + (r + r2 * tail);
-        // 2^k, from the lowest bits of `rounded`.
-        let two_to_k = f64::from_bits((rounded.to_bits().wrapping_add(1023)) << 52);
-        *result = power * two_to_k;
-    }
-    result
+    let rounded = x * std::f64::consts::LOG2_E + ROUND;
+    let k = rounded - ROUND;
+    let r = (x - k * LN_2_HIGH) - k * LN_2_LOW;
+    // Estrin's order: pairs, pairs of pairs, and so on.
+    let r2 = r * r;
+    let r4 = r2 * r2;
+    let p23 = 1.0 / 2.0 + r * (1.0 / 6.0);
+    let p45 = 1.0 / 24.0 + r * (1.0 / 120.0);
+    let p67 = 1.0 / 720.0 + r * (1.0 / 5040.0);
+    let p89 = 1.0 / 40_320.0 + r * (1.0 / 362_880.0);
+    let pab = 1.0 / 3_628_800.0 + r * (1.0 / 39_916_800.0);
+    let pcd = 1.0 / 479_001_600.0 + r * (1.0 / 6_227_020_800.0);
+    let low = p23 + r2 * p45;
+    let middle = p67 + r2 * p89;
+    let high = pab + r2 * pcd;
+    let tail = low + r4 * (middle + r4 * high);
+    let power = 1.0 + (r + r2 * tail);
+    // 2^k, from the lowest bits of `rounded`.
+    let two_to_k = f64::from_bits((rounded.to_bits().wrapping_add(1023)) << 52);
+    power * two_to_k
 }
 
 #[cfg(test)]
@@ -120,15 +109,6 @@ mod tests {
             let (a, b) = (-0.1 * f64::from(i), -50.0);
             let ratio = exp(a + b) / (exp(a) * exp(b));
             assert!((ratio - 1.0).abs() < 1e-13, "at {a}");
-        }
-    }
-
-    #[test]
-    fn each_of_several_has_the_bits_of_one() {
-        for i in 0..4000 {
-            let x = 0.37 * f64::from(i) - 740.0;
-            let several = [x, -1.5, 0.1 * x, if i % 7 == 0 { f64::NAN } else { 800.0 }];
-            assert_eq!(exp_each(several).map(f64::to_bits), several.map(|x| exp(x).to_bits()));
         }
     }
 

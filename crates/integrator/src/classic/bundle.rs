@@ -6,9 +6,10 @@
 
 use super::lights::Light;
 use super::world::{Candidates, World};
+use crate::enclose::{cone, extent, max};
 use crate::rows::Triples;
-use lancer_kernel::lanes::{Lanes, MOST, Mask, Real, Vectors, lanes_of, smaller};
-use lancer_math::Vector;
+use lancer_kernel::lanes::{Lanes, Mask, Real, Vectors, lanes_of, smaller};
+use lancer_math::{Bounds, Vector};
 use std::ops::Range;
 
 /// A ball around points.
@@ -32,88 +33,16 @@ pub(super) struct Cone {
 /// where terms cancel: the root of 2^-52 is 2^-26.
 const SLACK: f64 = 1.0 / 4_194_304.0; // 2^-22
 
-/// The sum, or another fold, of the lanes that count.
-#[inline(always)]
-fn fold<R: Real>(register: R, fold: fn(f64, f64) -> f64, width: usize) -> f64 {
-    let mut each = [0.0; MOST];
-    register.store(&mut each);
-    let mut all = each[0];
-    for x in &each[1..width] {
-        all = fold(all, *x);
-    }
-    all
-}
-
-/// The larger one; the second where one is not a number.
-#[inline(always)]
-fn max<R: Real>(a: R, b: R) -> R {
-    a.gt(b).select(a, b)
-}
-
-/// Calls `each` with registers that hold all of a range, some perhaps twice.
-#[inline(always)]
-fn each_register<L: Lanes>(
-    lanes: L,
-    from: &Triples,
-    range: Range<usize>,
-    mut each: impl FnMut(Vectors<L::Real>),
-) {
-    if range.len() < L::WIDTH {
-        let valid = lanes.first(range.end - range.start);
-        let v = from.load(lanes, range.start);
-        let first = Vectors::splat(lanes, &v.lane(0));
-        each(Vectors {
-            x: valid.select(v.x, first.x),
-            y: valid.select(v.y, first.y),
-            z: valid.select(v.z, first.z),
-        });
-        return;
-    }
-    let last = range.end - L::WIDTH;
-    let mut i = range.start;
-    while i < last {
-        each(from.load(lanes, i));
-        i += L::WIDTH;
-    }
-    each(from.load(lanes, last));
-}
-
 impl Around {
     /// Of one point alone.
     pub(super) fn point(centre: Vector) -> Self {
         Self { centre, radius: 0.0, largest: centre.amax() }
     }
 
-    /// Points that are not numbers are left out: from them nothing is met.
     #[inline(always)]
     pub(super) fn new<L: Lanes>(lanes: L, points: &Triples, range: Range<usize>) -> Self {
-        let (big, small) = (lanes.splat(f64::INFINITY), lanes.splat(f64::NEG_INFINITY));
-        let mut least = Vectors { x: big, y: big, z: big };
-        let mut most = Vectors { x: small, y: small, z: small };
-        each_register(
-            lanes,
-            points,
-            range,
-            #[inline(always)]
-            |p| {
-                least = Vectors {
-                    x: smaller(p.x, least.x),
-                    y: smaller(p.y, least.y),
-                    z: smaller(p.z, least.z),
-                };
-                most = Vectors { x: max(p.x, most.x), y: max(p.y, most.y), z: max(p.z, most.z) };
-            },
-        );
-        let least = Vector::new(
-            fold(least.x, f64::min, L::WIDTH),
-            fold(least.y, f64::min, L::WIDTH),
-            fold(least.z, f64::min, L::WIDTH),
-        );
-        let most = Vector::new(
-            fold(most.x, f64::max, L::WIDTH),
-            fold(most.y, f64::max, L::WIDTH),
-            fold(most.z, f64::max, L::WIDTH),
-        );
+        let Bounds { min: least, max: most } = extent(lanes, points, range);
+        let (least, most) = (least.coords, most.coords);
         let half = most * 0.5 - least * 0.5;
         Self {
             centre: least * 0.5 + most * 0.5,
@@ -167,36 +96,11 @@ impl Around {
 }
 
 impl Cone {
-    /// Around some unit vectors, of which those that are not numbers are left out:
-    /// along them nothing is met.
+    /// Around some unit vectors.
     #[inline(always)]
     pub(super) fn new<L: Lanes>(lanes: L, directions: &Triples, range: Range<usize>) -> Self {
-        let zero = lanes.splat(0.0);
-        let mut sum = Vectors { x: zero, y: zero, z: zero };
-        each_register(
-            lanes,
-            directions,
-            range.clone(),
-            #[inline(always)]
-            |d| sum = sum + d,
-        );
-        let add = |a: f64, b: f64| a + b;
-        let sum = Vector::new(
-            fold(sum.x, add, L::WIDTH),
-            fold(sum.y, add, L::WIDTH),
-            fold(sum.z, add, L::WIDTH),
-        );
-        let axis = sum / sum.norm();
-        let axes = Vectors::splat(lanes, &axis);
-        let mut cosine = lanes.splat(1.0);
-        each_register(
-            lanes,
-            directions,
-            range,
-            #[inline(always)]
-            |d| cosine = smaller(d.dot(&axes), cosine),
-        );
-        Self::around(axis, fold(cosine, f64::min, L::WIDTH))
+        let (axis, least_cosine) = cone(lanes, directions, range);
+        Self::around(axis, least_cosine)
     }
 
     /// Around unit vectors and all that are between them.

@@ -22,7 +22,7 @@ use lancer_math::Bounds;
 pub(crate) use node::LEAF;
 use node::{CHILDREN, MOST_ITEMS, Node, Space};
 use rayon::prelude::*;
-pub(crate) use sort::order_in;
+pub(crate) use sort::{answer_each, order_in};
 use std::ops::Range;
 pub(crate) use walk::Stack;
 

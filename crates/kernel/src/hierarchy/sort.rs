@@ -8,6 +8,9 @@ use lancer_math::{Bounds, Ray};
 /// Rays fewer than this are not worth it.
 const FEW: usize = 256;
 
+/// Rays are fetched so many at a time.
+const BLOCK: usize = 64;
+
 /// Bits of a place along each axis.
 const BITS: u32 = 9;
 
@@ -28,8 +31,7 @@ impl Hierarchy {
 
 /// The same for rays that start all over a box and soon meet something: first by a
 /// cell of an eighth of the box's sides, as the rays of all directions there go
-/// through the same shapes. A million rays among as many spheres are 1.2 times as
-/// fast with it (1.74 and 2.09 million per second).
+/// through the same shapes.
 pub(crate) fn order_in(bounds: &Bounds, rays: &[Ray]) -> Option<Vec<u32>> {
     order(&Keys::new(bounds, 3), rays)
 }
@@ -62,6 +64,33 @@ fn order(keys: &Keys, rays: &[Ray]) -> Option<Vec<u32>> {
         std::mem::swap(&mut list, &mut other);
     }
     Some(list.into_iter().map(|entry| entry as u32).collect())
+}
+
+/// The answer for each ray, put where it belongs; they are asked for in that order,
+/// or as they come.
+#[inline(always)]
+pub(crate) fn answer_each<A>(
+    order: Option<&[u32]>,
+    rays: &[Ray],
+    answers: &mut [A],
+    mut answer: impl FnMut(&Ray) -> A,
+) {
+    let Some(order) = order else {
+        for (ray, to) in rays.iter().zip(answers) {
+            *to = answer(ray);
+        }
+        return;
+    };
+    // There are some, as there is an order.
+    let mut block = [rays[0]; BLOCK];
+    for numbers in order.chunks(BLOCK) {
+        for (ray, &number) in block.iter_mut().zip(numbers) {
+            *ray = rays[number as usize];
+        }
+        for (ray, &number) in block.iter().zip(numbers) {
+            answers[number as usize] = answer(ray);
+        }
+    }
 }
 
 impl Keys {

@@ -232,15 +232,8 @@ impl Width {
     /// All, the widest last.
     #[must_use]
     pub fn available() -> Vec<Self> {
-        let level = Level::new();
-        let mut all = vec![Self::SCALAR, Self(Kind::Portable(Level::baseline()))];
-        #[cfg(target_arch = "x86_64")]
-        {
-            all.extend(level.as_avx2().map(|avx2| Self(Kind::Avx2(avx2))));
-            all.extend(level.as_avx512().map(|avx512| Self(Kind::Avx512(avx512))));
-        }
-        let _ = level;
-        all
+        let narrow = [Self::SCALAR, Self(Kind::Portable(Level::baseline()))];
+        narrow.into_iter().chain(wider(Level::new())).collect()
     }
 
     /// Those of a name: `scalar`, `portable` (two lanes of the instructions that every
@@ -279,6 +272,18 @@ impl Width {
             Kind::Avx512(_) => "avx512",
         }
     }
+}
+
+/// Those that not every processor of this kind has.
+#[cfg(target_arch = "x86_64")]
+fn wider(level: Level) -> impl Iterator<Item = Width> {
+    let avx2 = level.as_avx2().map(|avx2| Width(Kind::Avx2(avx2)));
+    avx2.into_iter().chain(level.as_avx512().map(|avx512| Width(Kind::Avx512(avx512))))
+}
+
+#[cfg(not(target_arch = "x86_64"))]
+fn wider(_: Level) -> impl Iterator<Item = Width> {
+    std::iter::empty()
 }
 
 impl Default for Width {

@@ -6,14 +6,11 @@ use super::space::Kind;
 use super::walk::{Known, Place, Quest, Walk, with_stacks};
 use super::{Prepared, Which};
 use crate::Hit;
-use crate::hierarchy::{Stack, order_in};
+use crate::hierarchy::{Stack, answer_each, order_in};
 use crate::lanes::{Lanes, Work, dispatch};
 use crate::primitive::Primitive;
 use crate::shapes::mesh::Facets;
 use lancer_math::Ray;
-
-/// Rays are fetched so many at a time.
-const BLOCK: usize = 64;
 
 /// What takes less memory is near the processor anyway.
 const NEAR: usize = 1 << 19;
@@ -96,33 +93,20 @@ impl<A, Q: Quest, N: Fn() -> Q, F: Fn(Q) -> A> Work for Batch<'_, A, N, F> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
-        with_stacks(
-            self.prepared.root.depth + 1,
-            #[inline(always)]
-            |stacks| self.follow(lanes, stacks),
-        );
-    }
-}
-
-impl<A, Q: Quest, N: Fn() -> Q, F: Fn(Q) -> A> Batch<'_, A, N, F> {
-    #[inline(always)]
-    fn follow<L: Lanes>(self, lanes: L, stacks: &mut [Stack]) {
         let Self { prepared, rays, order, answers, quest, answer } = self;
-        let Some(order) = order else {
-            for (ray, to) in rays.iter().zip(answers) {
-                *to = answer(asked(lanes, stacks, prepared, ray, quest()));
-            }
-            return;
-        };
-        let mut block = [rays[0]; BLOCK];
-        for numbers in order.chunks(BLOCK) {
-            for (ray, &number) in block.iter_mut().zip(numbers) {
-                *ray = rays[number as usize];
-            }
-            for (ray, &number) in block.iter().zip(numbers) {
-                answers[number as usize] = answer(asked(lanes, stacks, prepared, ray, quest()));
-            }
-        }
+        with_stacks(
+            prepared.root.depth + 1,
+            #[inline(always)]
+            |stacks| {
+                answer_each(
+                    order,
+                    rays,
+                    answers,
+                    #[inline(always)]
+                    |ray| answer(asked(lanes, stacks, prepared, ray, quest())),
+                );
+            },
+        );
     }
 }
 

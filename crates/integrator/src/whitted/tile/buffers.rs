@@ -1,72 +1,40 @@
-//! What a tile's rays carry, field by field, so that registers are filled from
-//! neighbours in memory.
+//! What a tile's rays carry.
 
-use crate::TILE_SIDE;
+use crate::rows::{BATCH, Row, Triples, ZEROS};
 use lancer_kernel::Hit;
-use lancer_kernel::lanes::{Lanes, MOST, Vectors};
+use lancer_kernel::lanes::MOST;
 use lancer_math::{Ray, Vector};
-
-/// How many rays of a tile are followed at the same time: one for each pixel.
-pub(super) const MOST_RAYS: usize = (TILE_SIDE * TILE_SIDE) as usize;
-
-/// One more register: the last one may be filled in part. No power of two, which
-/// would put all fields of a ray into the same lines of the cache.
-pub(super) const ROOM: usize = MOST_RAYS + MOST;
-
-/// A number for each ray.
-pub(super) type Column = [f64; ROOM];
-
-/// Three numbers for each ray.
-pub(super) type Triple = [Column; 3];
-
-/// From one place on, so many as are there.
-pub(super) fn from(triple: &Triple, at: usize) -> [&[f64]; 3] {
-    [&triple[0][at..], &triple[1][at..], &triple[2][at..]]
-}
-
-/// The same to write to.
-pub(super) fn from_mut(triple: &mut Triple, at: usize) -> [&mut [f64]; 3] {
-    let [x, y, z] = triple;
-    [&mut x[at..], &mut y[at..], &mut z[at..]]
-}
-
-/// Three registers of a triple.
-#[inline(always)]
-pub(super) fn load<L: Lanes>(lanes: L, triple: &Triple, at: usize) -> Vectors<L::Real> {
-    Vectors::load(lanes, from(triple, at))
-}
 
 /// Rays that are followed together.
 #[derive(Clone)]
 pub(super) struct Bundle {
     pub(super) count: usize,
-    pub(super) origin: Triple,
-    pub(super) direction: Triple,
+    pub(super) origin: Triples,
+    pub(super) direction: Triples,
     /// How much of what they see is in the pixel.
-    pub(super) share: Triple,
+    pub(super) share: Triples,
     /// The place of that pixel in the tile.
-    pub(super) pixel: [u16; ROOM],
-    pub(super) t: Column,
+    pub(super) pixel: [u16; BATCH + MOST],
+    pub(super) t: Row,
     /// The items that they leave the outside of; -1 where they do not.
-    pub(super) outside: Column,
+    pub(super) outside: Row,
     /// -1 where they meet nothing.
-    pub(super) item: Column,
-    pub(super) part: Column,
+    pub(super) item: Row,
+    pub(super) part: Row,
 }
 
 impl Bundle {
     pub(super) const fn new() -> Self {
-        const NONE: Triple = [[0.0; ROOM]; 3];
         Self {
             count: 0,
-            origin: NONE,
-            direction: NONE,
-            share: NONE,
-            pixel: [0; ROOM],
-            t: NONE[0],
-            outside: NONE[0],
-            item: NONE[0],
-            part: NONE[0],
+            origin: Triples::ZEROS,
+            direction: Triples::ZEROS,
+            share: Triples::ZEROS,
+            pixel: [0; BATCH + MOST],
+            t: ZEROS,
+            outside: ZEROS,
+            item: ZEROS,
+            part: ZEROS,
         }
     }
 
@@ -74,10 +42,10 @@ impl Bundle {
     /// is in it.
     pub(super) fn pad(&mut self) {
         let Some(last) = self.count.checked_sub(1) else { return };
-        let columns = self.origin.iter_mut().chain(&mut self.direction).chain(&mut self.share);
-        for column in
-            columns.chain([&mut self.t, &mut self.outside, &mut self.item, &mut self.part])
-        {
+        let triples = [&mut self.origin, &mut self.direction, &mut self.share];
+        let columns = triples.into_iter().flat_map(|triples| &mut triples.0);
+        let others = [&mut self.t, &mut self.outside, &mut self.item, &mut self.part];
+        for column in columns.chain(others) {
             let value = column[last];
             column[last + 1..last + MOST].fill(value);
         }
@@ -85,15 +53,15 @@ impl Bundle {
 
     /// Becomes the rays of another bundle that are listed.
     pub(super) fn gather(&mut self, other: &Self, which: &[u16]) {
-        let copy = |to: &mut Column, from: &Column| {
+        let copy = |to: &mut Row, from: &Row| {
             for (to, &k) in to.iter_mut().zip(which) {
                 *to = from[usize::from(k)];
             }
         };
         for axis in 0..3 {
-            copy(&mut self.origin[axis], &other.origin[axis]);
-            copy(&mut self.direction[axis], &other.direction[axis]);
-            copy(&mut self.share[axis], &other.share[axis]);
+            copy(&mut self.origin.0[axis], &other.origin.0[axis]);
+            copy(&mut self.direction.0[axis], &other.direction.0[axis]);
+            copy(&mut self.share.0[axis], &other.share.0[axis]);
         }
         copy(&mut self.t, &other.t);
         copy(&mut self.item, &other.item);
@@ -106,12 +74,12 @@ impl Bundle {
     }
 
     pub(super) fn ray(&self, k: usize) -> Ray {
-        let vector = |triple: &Triple| Vector::new(triple[0][k], triple[1][k], triple[2][k]);
+        let vector = |triple: &Triples| Vector::from(triple.0.each_ref().map(|row| row[k]));
         Ray::new(vector(&self.origin).into(), vector(&self.direction))
     }
 
     pub(super) fn share(&self, k: usize) -> [f64; 3] {
-        [self.share[0][k], self.share[1][k], self.share[2][k]]
+        self.share.0.each_ref().map(|row| row[k])
     }
 
     /// What a ray met that met something.
@@ -123,37 +91,36 @@ impl Bundle {
 /// What rays of a bundle see where they meet one item.
 #[derive(Clone)]
 pub(super) struct Sights {
-    pub(super) point: Triple,
-    pub(super) error: Column,
+    pub(super) point: Triples,
+    pub(super) error: Row,
     /// The normals on the side that is seen.
-    pub(super) facet: Triple,
+    pub(super) facet: Triples,
     /// Where those to shade with are others, these.
     pub(super) is_smooth: bool,
-    pub(super) shading: Triple,
-    pub(super) albedo: Triple,
+    pub(super) shading: Triples,
+    pub(super) albedo: Triples,
     /// The share of the matte part in the pixel, by colour.
-    pub(super) matte: Triple,
+    pub(super) matte: Triples,
     /// Whether one of them is above 0 everywhere.
     pub(super) all_matter: bool,
     /// The light that falls on it.
-    pub(super) light: Triple,
+    pub(super) light: Triples,
     /// Whether that is the same for all colours, and only the first is kept.
     pub(super) is_grey: bool,
 }
 
 impl Sights {
     pub(super) const fn new() -> Self {
-        const NONE: Triple = [[0.0; ROOM]; 3];
         Self {
-            point: NONE,
-            error: NONE[0],
-            facet: NONE,
+            point: Triples::ZEROS,
+            error: ZEROS,
+            facet: Triples::ZEROS,
             is_smooth: false,
-            shading: NONE,
-            albedo: NONE,
-            matte: NONE,
+            shading: Triples::ZEROS,
+            albedo: Triples::ZEROS,
+            matte: Triples::ZEROS,
             all_matter: false,
-            light: NONE,
+            light: Triples::ZEROS,
             is_grey: true,
         }
     }
@@ -167,12 +134,12 @@ pub(super) struct Buffers {
     /// Those that met the same item.
     pub(super) group: Box<Bundle>,
     pub(super) sights: Sights,
-    pub(super) radiance: Triple,
+    pub(super) radiance: Triples,
     /// The rays in the order of what they met.
-    pub(super) order: [u16; ROOM],
+    pub(super) order: [u16; BATCH + MOST],
     /// What they met, and how many of them.
     pub(super) items: Vec<(f64, u16)>,
-    pub(super) slots: [u16; ROOM],
+    pub(super) slots: [u16; BATCH + MOST],
 }
 
 impl Buffers {
@@ -182,10 +149,10 @@ impl Buffers {
             next: Box::new(Bundle::new()),
             group: Box::new(Bundle::new()),
             sights: Sights::new(),
-            radiance: [[0.0; ROOM]; 3],
-            order: [0; ROOM],
-            items: Vec::with_capacity(MOST_RAYS),
-            slots: [0; ROOM],
+            radiance: Triples::ZEROS,
+            order: [0; BATCH + MOST],
+            items: Vec::with_capacity(BATCH),
+            slots: [0; BATCH + MOST],
         })
     }
 
@@ -215,7 +182,7 @@ impl Buffers {
         if self.items.len() == 1 {
             return;
         }
-        let mut next = [0_u16; MOST_RAYS];
+        let mut next = [0_u16; BATCH];
         let mut begin = 0;
         for (next, (_, count)) in next.iter_mut().zip(&self.items) {
             *next = begin;

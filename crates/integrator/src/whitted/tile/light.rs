@@ -1,8 +1,8 @@
 //! The light of lamps, spots and suns that falls on the points of a batch.
 
-use super::buffers::{Buffers, load};
+use super::buffers::Buffers;
 use super::shade::{Around, leaving};
-use super::{Tile, dot, first_lanes};
+use super::{Tile, dot};
 use crate::whitted::lights::{From, Source};
 use crate::whitted::media::Media;
 use lancer_kernel::lanes::{Lanes, MOST, Mask, Real, Vectors, lanes_of};
@@ -18,7 +18,7 @@ impl Tile<'_> {
         // Opaque surfaces leave light its colour.
         sights.is_grey = !self.tracer.prepared.has_transparent();
         let colours = if sights.is_grey { 1 } else { 3 };
-        for light in &mut sights.light[..colours] {
+        for light in &mut sights.light.0[..colours] {
             light[..group.count].fill(0.0);
         }
         for index in 0..self.tracer.lights.lights.len() {
@@ -53,9 +53,9 @@ impl Tile<'_> {
         let zero = lanes.splat(0.0);
         let prepared = &self.tracer.prepared;
         let Buffers { group, sights, .. } = &mut *self.buffers;
-        let point = load(lanes, &sights.point, at);
-        let facet = load(lanes, &sights.facet, at);
-        let shading = if sights.is_smooth { load(lanes, &sights.shading, at) } else { facet };
+        let point = sights.point.load(lanes, at);
+        let facet = sights.facet.load(lanes, at);
+        let shading = if sights.is_smooth { sights.shading.load(lanes, at) } else { facet };
         let (way, squared, t_max) = match &source.place {
             From::Direction(direction) => {
                 (Vectors::splat(lanes, direction), lanes.splat(1.0), f64::INFINITY)
@@ -67,9 +67,9 @@ impl Tile<'_> {
         };
         let along = dot(&way, &shading);
         let is_lit = along.gt(zero) & dot(&way, &facet).gt(zero);
-        let mut asked = first_lanes(lanes, group.count - at) & is_lit;
+        let mut asked = lanes.first(group.count - at) & is_lit;
         if !sights.all_matter {
-            let matte = load(lanes, &sights.matte, at);
+            let matte = sights.matte.load(lanes, at);
             asked = asked & !(matte.x.eq(zero) & matte.y.eq(zero) & matte.z.eq(zero));
         }
         if !asked.any() {
@@ -100,8 +100,8 @@ impl Tile<'_> {
         let hidden = prepared.any_in_lanes(&rays, t_max, asked, Which::Opaque, (among, outside));
         let arrives = asked & !hidden;
         if sights.is_grey {
-            let sum = lanes.load(&sights.light[0][at..]);
-            arrives.select(sum + strength, sum).store(&mut sights.light[0][at..]);
+            let sum = lanes.load(&sights.light.0[0][at..]);
+            arrives.select(sum + strength, sum).store(&mut sights.light.0[0][at..]);
             return;
         }
         for k in lanes_of(arrives.bits()) {
@@ -114,7 +114,7 @@ impl Tile<'_> {
                 self.counts,
                 place,
             );
-            for (light, through) in sights.light.iter_mut().zip(through) {
+            for (light, through) in sights.light.0.iter_mut().zip(through) {
                 if through != 0.0 {
                     light[at + k] += strength.lane(k) * through;
                 }

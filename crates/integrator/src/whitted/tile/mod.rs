@@ -15,12 +15,14 @@ mod units;
 pub(super) use units::units;
 
 use super::tracer::{DEEPEST, Kind, WhittedTracer};
+use crate::enclose::{cone, extent};
+use crate::rows::Triples;
 use crate::{RayCounts, Rgb};
-use buffers::{Buffers, Bundle, Triple, load};
+use buffers::{Buffers, Bundle};
 use lancer_film::Window;
 use lancer_kernel::Candidates;
 use lancer_kernel::Rays;
-use lancer_kernel::lanes::{Lanes, MOST, Mask, Real, Vectors, Work, dispatch, larger, smaller};
+use lancer_kernel::lanes::{Lanes, MOST, Mask, Real, Vectors, Work, dispatch};
 use lancer_math::{Bounds, Point, Vector};
 use std::cell::Cell;
 
@@ -68,8 +70,10 @@ impl Work for Tile<'_> {
             self.shade_all(lanes, depth, kind);
             std::mem::swap(&mut self.buffers.rays, &mut self.buffers.next);
             self.buffers.rays.pad();
+            if self.culls_tiles() && self.buffers.rays.count > 0 {
+                among = self.ahead(lanes);
+            }
             kind = Kind::Reflected;
-            among = if self.culls_tiles() { self.ahead(lanes) } else { Candidates::ALL };
             depth += 1;
         }
         self.end();
@@ -93,15 +97,15 @@ impl Tile<'_> {
                 let at_x = steps + (f64::from(x + column) + 0.5);
                 let (origin, direction) = view.rays(lanes, at_x, at_y);
                 let at = (row * width + column) as usize;
-                origin.store(buffers::from_mut(&mut rays.origin, at));
-                direction.store(buffers::from_mut(&mut rays.direction, at));
+                rays.origin.store(lanes, at, &origin);
+                rays.direction.store(lanes, at, &direction);
             }
         }
         for k in 0..rays.count {
             rays.pixel[k] = k as u16;
         }
-        rays.share.iter_mut().for_each(|share| share[..rays.count].fill(1.0));
-        radiance.iter_mut().for_each(|radiance| radiance[..rays.count].fill(0.0));
+        rays.share.0.iter_mut().for_each(|share| share[..rays.count].fill(1.0));
+        radiance.0.iter_mut().for_each(|radiance| radiance[..rays.count].fill(0.0));
         rays.pad();
 
         let Some(eye) = view.eye() else { return Candidates::ALL };
@@ -125,18 +129,8 @@ impl Tile<'_> {
     #[inline(always)]
     fn ahead<L: Lanes>(&self, lanes: L) -> Candidates {
         let rays = &self.buffers.rays;
-        let origins = extent(lanes, &rays.origin, rays.count);
-        let mut sum = Vectors::splat(lanes, &Vector::zeros());
-        for at in (0..rays.count).step_by(L::WIDTH) {
-            sum = sum + load(lanes, &rays.direction, at);
-        }
-        let sum = (0..L::WIDTH).map(|k| sum.lane(k)).sum::<Vector>();
-        let Some(axis) = lancer_math::unit(sum) else { return Candidates::ALL };
-        let (mut least, across) = (lanes.splat(1.0), Vectors::splat(lanes, &axis));
-        for at in (0..rays.count).step_by(L::WIDTH) {
-            least = smaller(load(lanes, &rays.direction, at).dot(&across), least);
-        }
-        let cosine = (0..L::WIDTH).map(|k| least.lane(k)).fold(1.0, f64::min);
+        let origins = extent(lanes, &rays.origin, 0..rays.count);
+        let (axis, cosine) = cone(lanes, &rays.direction, 0..rays.count);
         let (centre, radius) = ball_around(&origins);
         self.tracer.prepared.candidates_in_cone(&centre, radius, &axis, cosine)
     }
@@ -147,9 +141,9 @@ impl Tile<'_> {
         let rays = &mut self.buffers.rays;
         let mut is_another = lanes.mask(0);
         for at in (0..rays.count).step_by(L::WIDTH) {
-            let asked = first_lanes(lanes, rays.count - at);
+            let asked = lanes.first(rays.count - at);
             let register =
-                Rays::new(lanes, load(lanes, &rays.origin, at), load(lanes, &rays.direction, at));
+                Rays::new(lanes, rays.origin.load(lanes, at), rays.direction.load(lanes, at));
             let outside = (depth > 0 && self.tracer.kernel.culling.tile_candidates)
                 .then(|| lanes.load(&rays.outside[at..]));
             let prepared = &self.tracer.prepared;
@@ -213,14 +207,14 @@ impl Tile<'_> {
         for k in 0..group.count {
             let pixel = group.pixel[k];
             let place = self.window.place(pixel);
-            let sum = [0, 1, 2].map(|i| radiance[i][usize::from(pixel)]);
+            let sum = [0, 1, 2].map(|i| radiance.0[i][usize::from(pixel)]);
             let sum = self.tracer.go_on(
                 (group.ray(k), group.share(k), depth, kind),
                 sum,
                 place,
                 self.counts,
             );
-            (0..3).for_each(|i| radiance[i][usize::from(pixel)] = sum[i]);
+            (0..3).for_each(|i| radiance.0[i][usize::from(pixel)] = sum[i]);
         }
     }
 
@@ -250,9 +244,9 @@ impl Tile<'_> {
         let Bundle { count, origin: to, direction: way, share: part, pixel, outside: out, .. } =
             &mut **next;
         outside.store_packed(matters, &mut out[*count..]);
-        pack(&origin, matters, to, *count);
-        pack(&direction, matters, way, *count);
-        pack(share, matters, part, *count);
+        to.pack(lanes, *count, &origin, matters);
+        way.pack(lanes, *count, &direction, matters);
+        part.pack(lanes, *count, share, matters);
         for k in lancer_kernel::lanes::lanes_of(matters.bits()) {
             pixel[*count] = group.pixel[at + k];
             *count += 1;
@@ -264,7 +258,7 @@ impl Tile<'_> {
     fn spoil(&mut self, bits: u32, at: usize) {
         for k in lancer_kernel::lanes::lanes_of(bits) {
             let pixel = usize::from(self.buffers.group.pixel[at + k]);
-            self.buffers.radiance.iter_mut().for_each(|radiance| radiance[pixel] = f64::NAN);
+            self.buffers.radiance.0.iter_mut().for_each(|radiance| radiance[pixel] = f64::NAN);
         }
     }
 
@@ -279,7 +273,7 @@ impl Tile<'_> {
     /// The pixels' colours.
     fn end(&mut self) {
         let radiance = &self.buffers.radiance;
-        let [red, green, blue] = radiance;
+        let [red, green, blue] = &radiance.0;
         let mut all_finite = true;
         for (((pixel, red), green), blue) in self.pixels.iter_mut().zip(red).zip(green).zip(blue) {
             *pixel = [*red as f32, *green as f32, *blue as f32];
@@ -298,14 +292,6 @@ impl Tile<'_> {
     }
 }
 
-/// Those of a mask, from one place on.
-#[inline(always)]
-fn pack<R: Real>(vectors: &Vectors<R>, mask: R::Mask, to: &mut Triple, at: usize) {
-    vectors.x.store_packed(mask, &mut to[0][at..]);
-    vectors.y.store_packed(mask, &mut to[1][at..]);
-    vectors.z.store_packed(mask, &mut to[2][at..]);
-}
-
 /// Where a pixel of a tile is in the frame.
 trait Places {
     fn place(&self, pixel: u16) -> (u32, u32);
@@ -318,46 +304,15 @@ impl Places for Window {
     }
 }
 
-/// The first lanes of a register, as many as there are rays left.
-#[inline(always)]
-fn first_lanes<L: Lanes>(lanes: L, count: usize) -> L::Mask {
-    lanes.mask(if count >= L::WIDTH { u32::MAX } else { (1 << count) - 1 })
-}
-
 /// Adds to a pixel what is seen with a share.
 #[inline(always)]
-fn add(radiance: &mut Triple, pixel: u16, share: [f64; 3], seen: [f64; 3]) {
+fn add(radiance: &mut Triples, pixel: u16, share: [f64; 3], seen: [f64; 3]) {
     for i in 0..3 {
         // Nothing of something infinite is nothing.
         if share[i] != 0.0 && seen[i] != 0.0 {
-            radiance[i][usize::from(pixel)] += share[i] * seen[i];
+            radiance.0[i][usize::from(pixel)] += share[i] * seen[i];
         }
     }
-}
-
-/// A box around the first points of a triple whose last register is filled.
-#[inline(always)]
-fn extent<L: Lanes>(lanes: L, points: &Triple, count: usize) -> Bounds {
-    let infinite = lanes.splat(f64::INFINITY);
-    let mut least = Vectors { x: infinite, y: infinite, z: infinite };
-    let mut most = -least;
-    for at in (0..count).step_by(L::WIDTH) {
-        let point = load(lanes, points, at);
-        least = Vectors {
-            x: smaller(point.x, least.x),
-            y: smaller(point.y, least.y),
-            z: smaller(point.z, least.z),
-        };
-        most = Vectors {
-            x: larger(point.x, most.x),
-            y: larger(point.y, most.y),
-            z: larger(point.z, most.z),
-        };
-    }
-    (0..L::WIDTH).fold(Bounds::EMPTY, |bounds, k| {
-        let (min, max) = (least.lane(k).into(), most.lane(k).into());
-        bounds.union(Bounds { min, max })
-    })
 }
 
 /// A ball around a box.

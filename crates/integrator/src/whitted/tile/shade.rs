@@ -1,9 +1,11 @@
 //! Opaque surfaces: where rays meet them, what light falls there, and what a
 //! mirror throws back.
 
-use super::buffers::{Buffers, Triple, from_mut, load};
+use super::buffers::Buffers;
 use super::units::units;
-use super::{Tile, ball_around, dot, extent, first_lanes};
+use super::{Tile, ball_around, dot};
+use crate::enclose::extent;
+use crate::rows::Triples;
 use lancer_kernel::Rays;
 use lancer_kernel::lanes::{Lanes, Mask, Real, Vectors, lanes_of, larger};
 use lancer_math::{Bounds, Point, Vector};
@@ -68,7 +70,7 @@ impl Tile<'_> {
         let (mut behind, mut before) = (lanes.mask(0), lanes.mask(0));
         for at in (0..group.count).step_by(L::WIDTH) {
             let (origin, direction) =
-                (load(lanes, &group.origin, at), load(lanes, &group.direction, at));
+                (group.origin.load(lanes, at), group.direction.load(lanes, at));
             let rays = Rays::new(lanes, origin, direction);
             let t = lanes.load(&group.t[at..]);
             let Some(points) = prepared.points_in_lanes(&rays, t, item) else { continue };
@@ -78,27 +80,27 @@ impl Tile<'_> {
             before = before | !from_behind;
             let point = points.point;
             largest = larger(points.error, largest);
-            point.store(from_mut(&mut sights.point, at));
+            sights.point.store(lanes, at, &point);
             points.error.store(&mut sights.error[at..]);
-            facet.store(from_mut(&mut sights.facet, at));
+            sights.facet.store(lanes, at, &facet);
 
             let Pattern::Checker(checker) = pattern else {
-                first.store(from_mut(&mut sights.albedo, at));
+                sights.albedo.store(lanes, at, &first);
                 continue;
             };
             let cells = prepared.cells_in_lanes(lanes, item, &points, &checker);
             let albedo = Vectors::select(cells.second, second, first);
-            albedo.store(from_mut(&mut sights.albedo, at));
-            let asked = first_lanes(lanes, group.count - at) & !cells.certain;
+            sights.albedo.store(lanes, at, &albedo);
+            let asked = lanes.first(group.count - at) & !cells.certain;
             for k in lanes_of(asked.bits()) {
                 let seen = prepared.expand(&group.ray(at + k), &group.hit(at + k));
-                (0..3).for_each(|i| sights.albedo[i][at + k] = seen.albedo[i]);
+                (0..3).for_each(|i| sights.albedo.0[i][at + k] = seen.albedo[i]);
             }
         }
-        let bounds = extent(lanes, &sights.point, group.count);
+        let bounds = extent(lanes, &sights.point, 0..group.count);
         let error = (0..L::WIDTH).map(|k| largest.lane(k)).fold(0.0, f64::max);
         let one_side = behind.any() != before.any();
-        let side = one_side.then(|| load(lanes, &sights.facet, 0).lane(0));
+        let side = one_side.then(|| sights.facet.load(lanes, 0).lane(0));
         let outside = (!behind.any() && culling.shadow_candidates).then_some(item);
         Around { outside, ..Around::new(&bounds, error, side) }
     }
@@ -109,8 +111,8 @@ impl Tile<'_> {
         let prepared = &self.tracer.prepared;
         let Buffers { group, sights, .. } = &mut *self.buffers;
         sights.is_smooth = true;
-        let put = |to: &mut Triple, k: usize, v: &Vector| {
-            (0..3).for_each(|axis| to[axis][k] = v[axis]);
+        let put = |to: &mut Triples, k: usize, v: &Vector| {
+            (0..3).for_each(|axis| to.0[axis][k] = v[axis]);
         };
         let mut bounds = Bounds::EMPTY;
         let mut error = 0.0_f64;
@@ -139,12 +141,12 @@ impl Tile<'_> {
         let zero = lanes.splat(0.0);
         let mut some_do_not = lanes.mask(0);
         for at in (0..group.count).step_by(L::WIDTH) {
-            let share = load(lanes, &group.share, at) * lanes.splat(matte);
-            let albedo = load(lanes, &sights.albedo, at);
+            let share = group.share.load(lanes, at) * lanes.splat(matte);
+            let albedo = sights.albedo.load(lanes, at);
             let share =
                 Vectors { x: share.x * albedo.x, y: share.y * albedo.y, z: share.z * albedo.z };
             some_do_not = some_do_not | (share.x.eq(zero) & share.y.eq(zero) & share.z.eq(zero));
-            share.store(from_mut(&mut sights.matte, at));
+            sights.matte.store(lanes, at, &share);
         }
         sights.all_matter = !some_do_not.any();
     }
@@ -159,10 +161,10 @@ impl Tile<'_> {
         let in_order = group.count == self.window.pixels() as usize
             && group.pixel[..group.count].iter().zip(0..).fold(true, |all, (p, k)| all & (*p == k));
         for axis in 0..3 {
-            let radiance = &mut radiance[axis];
-            let light = &sights.light[if sights.is_grey { 0 } else { axis }];
+            let radiance = &mut radiance.0[axis];
+            let light = &sights.light.0[if sights.is_grey { 0 } else { axis }];
             for at in (0..group.count).step_by(L::WIDTH) {
-                let share = lanes.load(&sights.matte[axis][at..]);
+                let share = lanes.load(&sights.matte.0[axis][at..]);
                 let light = lanes.load(&light[at..]);
                 // Nothing of something infinite is nothing.
                 let nothing = share.eq(zero) | light.eq(zero);
@@ -185,9 +187,9 @@ impl Tile<'_> {
         let outside = outside.map_or(-1.0, f64::from);
         for at in (0..self.buffers.group.count).step_by(L::WIDTH) {
             let Buffers { group, sights, .. } = &*self.buffers;
-            let direction = load(lanes, &group.direction, at);
-            let facet = load(lanes, &sights.facet, at);
-            let normal = if sights.is_smooth { load(lanes, &sights.shading, at) } else { facet };
+            let direction = group.direction.load(lanes, at);
+            let facet = sights.facet.load(lanes, at);
+            let normal = if sights.is_smooth { sights.shading.load(lanes, at) } else { facet };
             let mirrored = direction - normal * (dot(&direction, &normal) * 2.0);
             let height = dot(&mirrored, &facet);
             let is_below = height.lt(lanes.splat(0.0));
@@ -195,12 +197,12 @@ impl Tile<'_> {
             let mirrored = Vectors::select(is_below, above, mirrored);
             let mirrored = units(lanes, &mirrored, &facet);
             let away = leaving(lanes, &mirrored, &facet, lanes.load(&sights.error[at..]));
-            let origin = load(lanes, &sights.point, at) + facet * away;
+            let origin = sights.point.load(lanes, at) + facet * away;
             // Rounding may send a ray that touches to the other side.
             let is_inside = away.lt(lanes.splat(0.0));
             let outside = is_inside.select(lanes.splat(-1.0), lanes.splat(outside));
-            let share = load(lanes, &group.share, at) * lanes.splat(gloss);
-            let asked = first_lanes(lanes, group.count - at);
+            let share = group.share.load(lanes, at) * lanes.splat(gloss);
+            let asked = lanes.first(group.count - at);
             self.push(lanes, (origin, mirrored), &share, asked, (at, depth, outside));
         }
     }

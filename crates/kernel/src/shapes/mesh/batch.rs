@@ -3,12 +3,9 @@
 
 use super::Facets;
 use crate::Crossing;
-use crate::hierarchy::Stack;
+use crate::hierarchy::{Stack, answer_each};
 use crate::lanes::{Lanes, Work, dispatch};
 use lancer_math::Ray;
-
-/// Rays are fetched so many at a time.
-const BLOCK: usize = 64;
 
 /// Rays are sorted so many at a time.
 const TOGETHER: usize = 1 << 20;
@@ -74,21 +71,13 @@ impl<Q: Query> Work for Batch<'_, Q> {
     fn run<L: Lanes>(self, lanes: L) {
         let Self { facets, rays, t_max, order, answers } = self;
         let mut stack = Stack::new();
-        let Some(order) = order else {
-            for (ray, answer) in rays.iter().zip(answers) {
-                *answer = Q::answer(facets, lanes, &mut stack, ray, t_max);
-            }
-            return;
-        };
-        let mut block = [rays[0]; BLOCK];
-        for numbers in order.chunks(BLOCK) {
-            for (ray, &number) in block.iter_mut().zip(numbers) {
-                *ray = rays[number as usize];
-            }
-            for (ray, &number) in block.iter().zip(numbers) {
-                answers[number as usize] = Q::answer(facets, lanes, &mut stack, ray, t_max);
-            }
-        }
+        answer_each(
+            order,
+            rays,
+            answers,
+            #[inline(always)]
+            |ray| Q::answer(facets, lanes, &mut stack, ray, t_max),
+        );
     }
 }
 
