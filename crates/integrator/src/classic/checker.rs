@@ -1,6 +1,7 @@
 //! Which of its two colours a checker shows.
 
 use super::naive_unit;
+use super::vectors::dot;
 use lancer_kernel::lanes::{Lanes, Mask, Real, Vectors};
 use lancer_math::Vector;
 
@@ -59,8 +60,8 @@ pub(super) fn on_plane<L: Lanes>(
     axes: &[Vector; 2],
 ) -> L::Mask {
     let [first, second] = axes;
-    let first = odd_cells(lanes, offsets.dot(&Vectors::splat(lanes, first)));
-    let second = odd_cells(lanes, offsets.dot(&Vectors::splat(lanes, second)));
+    let first = odd_cells(lanes, dot(offsets, &Vectors::splat(lanes, first)));
+    let second = odd_cells(lanes, dot(offsets, &Vectors::splat(lanes, second)));
     lanes.mask(first ^ second)
 }
 

@@ -3,6 +3,7 @@
 use super::naive_unit;
 use super::plane::Half;
 use super::sphere::Ways;
+use super::vectors::dot;
 use super::world::World;
 use lancer_kernel::Culling;
 use lancer_kernel::lanes::{Lanes, MOST, Mask, One, Real, Vectors, lanes_of};
@@ -155,7 +156,7 @@ impl Light {
         let place = Vectors::splat(lanes, &self.place);
         if self.is_lamp {
             let vectors = place - *origins;
-            let lengths_squared = vectors.norm_squared();
+            let lengths_squared = dot(&vectors, &vectors);
             Ways { origins: *origins, vectors, lengths_squared }
         } else {
             Ways { origins: *origins, vectors: place, lengths_squared: lanes.splat(1.0) }

@@ -1,5 +1,6 @@
 use super::checker;
 use super::naive_unit;
+use super::vectors::dot;
 use crate::classic::sphere::Ways;
 use lancer_kernel::lanes::{Lanes, Real, Vectors};
 use lancer_math::{Point, Vector};
@@ -23,7 +24,7 @@ impl Half {
         Self {
             origin,
             normal,
-            offset: Vectors::from(origin.coords).dot(&normal.into()),
+            offset: dot(&origin.coords.into(), &normal.into()),
             axes: checker::axes_on_plane(normal),
         }
     }
@@ -39,8 +40,8 @@ impl Half {
         directions: &Vectors<L::Real>,
     ) -> (L::Mask, L::Real) {
         let normal = Vectors::splat(lanes, &self.normal);
-        let slope = directions.dot(&normal);
-        let to_plane = lanes.splat(self.offset) - origins.dot(&normal);
+        let slope = dot(directions, &normal);
+        let to_plane = lanes.splat(self.offset) - dot(origins, &normal);
         (slope.lt(lanes.splat(0.0)), to_plane / slope)
     }
 
@@ -48,15 +49,15 @@ impl Half {
     #[inline(always)]
     pub(super) fn hides_lamp<L: Lanes>(&self, lanes: L, ways: &Ways<L::Real>) -> L::Mask {
         let normal = Vectors::splat(lanes, &self.normal);
-        let slope = ways.vectors.dot(&normal);
-        (ways.origins.dot(&normal) - self.offset).abs().lt(-slope)
+        let slope = dot(&ways.vectors, &normal);
+        (dot(&ways.origins, &normal) - self.offset).abs().lt(-slope)
     }
 
     /// Whether it hides a sun in that direction. The ray to a sun has the same
     /// direction everywhere, and by the original's rule a hit may lie behind the
     /// origin: so a plane hides a sun from everywhere or from nowhere.
     pub(super) fn hides_sun(&self, towards: &Vector) -> bool {
-        Vectors::from(*towards).dot(&self.normal.into()) < 0.0
+        dot(&(*towards).into(), &self.normal.into()) < 0.0
     }
 
     /// Which points show the second colour of a checker.

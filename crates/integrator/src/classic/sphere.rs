@@ -1,4 +1,4 @@
-use super::vectors::unit;
+use super::vectors::{dot, unit};
 use lancer_kernel::lanes::{Lanes, Real, Vectors};
 use lancer_math::{Point, Vector};
 
@@ -46,7 +46,7 @@ impl Ball {
         directions: &Vectors<L::Real>,
     ) -> (L::Mask, L::Real) {
         let (to_centre, tangent_squared) = self.from(lanes, origins);
-        let along = to_centre.dot(directions);
+        let along = dot(&to_centre, directions);
         let under_root = along.mul_add(along, -tangent_squared);
         let zero = lanes.splat(0.0);
         // Not for NaN either.
@@ -58,7 +58,7 @@ impl Ball {
     #[inline(always)]
     pub(super) fn hides_sun<L: Lanes>(&self, lanes: L, ways: &Ways<L::Real>) -> L::Mask {
         let (to_centre, tangent_squared) = self.from(lanes, &ways.origins);
-        let along = ways.vectors.dot(&to_centre);
+        let along = dot(&ways.vectors, &to_centre);
         let zero = lanes.splat(0.0);
         along.ge(zero) & along.mul_add(along, -tangent_squared).ge(zero)
     }
@@ -78,7 +78,7 @@ impl Ball {
         lamp_is_inside: bool,
     ) -> L::Mask {
         let (to_centre, tangent_squared) = self.from(lanes, &ways.origins);
-        let along = ways.vectors.dot(&to_centre);
+        let along = dot(&ways.vectors, &to_centre);
         let lengths_squared = ways.lengths_squared;
         let zero = lanes.splat(0.0);
         let under_root = along.mul_add(along, -(lengths_squared * tangent_squared));
@@ -94,7 +94,7 @@ impl Ball {
     /// Whether a lamp is inside.
     pub(super) fn holds(&self, lamp: &Vector) -> bool {
         let v = lamp - self.centre;
-        Vectors::from(v).norm_squared() < self.radius_squared
+        dot(&v.into(), &v.into()) < self.radius_squared
     }
 
     #[inline(always)]

@@ -136,12 +136,12 @@ impl Stage {
                     let planes = light.planes(&self.world, around.largest);
                     let list = Suspects { spheres, planes };
                     let ways = light.ways_from(lanes, &p);
-                    let along = ways.vectors.dot(&n);
+                    let along = vectors::dot(&ways.vectors, &n);
                     let in_front = along.ge(zero) & wants;
                     let mut glows = lanes.mask(0);
                     let mut along_mirrored = zero;
                     if some_mirror {
-                        along_mirrored = ways.vectors.dot(&met.mirrored.load(lanes, i));
+                        along_mirrored = vectors::dot(&ways.vectors, &met.mirrored.load(lanes, i));
                         glows = light.glows(lanes, along_mirrored, ways.lengths_squared) & mirrors;
                     }
                     counts.shadow += u64::from(((in_front & matters) | glows).bits().count_ones());

@@ -6,7 +6,7 @@ use super::buffers::{Buffers, Bundle, Level};
 use super::bundle::{Around, Cone};
 use super::camera::PinholeCamera;
 use super::lights::{Beacon, Lights};
-use super::vectors::after;
+use super::vectors::{after, dot};
 use super::world::World;
 use crate::rows::{BATCH, load, pack, store};
 use crate::{RayCounts, Rgb};
@@ -135,7 +135,7 @@ impl Stage {
             let way = Vectors::splat(lanes, &beacon.way);
             let length_squared = lanes.splat(beacon.length_squared);
             for i in everything.clone().step_by(L::WIDTH) {
-                let along = rays.directions.load(lanes, i).dot(&way);
+                let along = dot(&rays.directions.load(lanes, i), &way);
                 let glows = light.glows(lanes, along, length_squared);
                 if glows.any() {
                     let sum = load(lanes, &rays.glow, i);

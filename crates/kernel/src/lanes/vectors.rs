@@ -52,10 +52,10 @@ impl<R: Real> Vectors<R> {
         Vector::new(self.x.lane(k), self.y.lane(k), self.z.lane(k))
     }
 
-    /// The sum of the products, from the first coordinate to the last, each sum fused.
+    /// x x' + (y y' + z z'), in that order and each sum fused.
     #[inline(always)]
     pub fn dot(&self, other: &Self) -> R {
-        self.z.mul_add(other.z, self.y.mul_add(other.y, self.x * other.x))
+        self.x.mul_add(other.x, self.y.mul_add(other.y, self.z * other.z))
     }
 
     /// The dot product with itself.
