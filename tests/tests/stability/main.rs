@@ -1,0 +1,6 @@
+//! Where ray tracing methods fail numerically, and that ours does not: one
+//! named test for each known failure, with the right answer from a closed form,
+//! from exact arithmetic or from a symmetry. Names begin with the group and the
+//! number of the failure.
+
+mod deferred;
