@@ -34,8 +34,8 @@ fn entry(distance: f32, child: Child) -> u64 {
 /// A ray along an axis, for eight boxes: where it enters and where it leaves.
 #[derive(Clone, Copy)]
 struct Axis<E: Eight> {
-    origin: [E::Singles; 2],
-    inverse: [E::Singles; 2],
+    inverse: E::Singles,
+    offset: [E::Singles; 2],
     side: usize,
 }
 
@@ -43,20 +43,20 @@ impl<E: Eight> Axis<E> {
     #[inline(always)]
     fn new(lanes: E, query: &Query, axis: usize) -> Self {
         Self {
-            origin: [lanes.single(query.origin[0][axis]), lanes.single(query.origin[1][axis])],
-            inverse: [lanes.single(query.inverse[0][axis]), lanes.single(query.inverse[1][axis])],
+            inverse: lanes.single(query.inverse[axis]),
+            offset: [lanes.single(query.offset[0][axis]), lanes.single(query.offset[1][axis])],
             side: usize::from(query.side[axis]),
         }
     }
 
     #[inline(always)]
     fn enter(&self, lanes: E, faces: &[[f32; CHILDREN]; 2]) -> E::Singles {
-        (lanes.singles(&faces[self.side & 1]) - self.origin[0]) * self.inverse[0]
+        lanes.singles(&faces[self.side & 1]).mul_add(self.inverse, self.offset[0])
     }
 
     #[inline(always)]
     fn leave(&self, lanes: E, faces: &[[f32; CHILDREN]; 2]) -> E::Singles {
-        (lanes.singles(&faces[self.side & 1 ^ 1]) - self.origin[1]) * self.inverse[1]
+        lanes.singles(&faces[self.side & 1 ^ 1]).mul_add(self.inverse, self.offset[1])
     }
 }
 
@@ -138,17 +138,12 @@ impl Hierarchy {
                 if !ORDERED && bits != 0 {
                     let slot = bits.trailing_zeros() as usize & (CHILDREN - 1);
                     bits &= bits - 1;
-                    if bits != 0 {
-                        let mut distances = [0.0; CHILDREN];
-                        enter.store(&mut distances);
-                        // The first one, the largest, is to be on top.
-                        while bits != 0 {
-                            let last = (31 - bits.leading_zeros()) as usize & (CHILDREN - 1);
-                            bits ^= 1 << last;
-                            stack[height & (ENTRIES - 1)] =
-                                entry(distances[last], node.children[last]);
-                            height += 1;
-                        }
+                    // The first one, the largest, is to be on top.
+                    while bits != 0 {
+                        let last = (31 - bits.leading_zeros()) as usize & (CHILDREN - 1);
+                        bits ^= 1 << last;
+                        stack[height & (ENTRIES - 1)] = entry(0.0, node.children[last]);
+                        height += 1;
                     }
                     current = node.children[slot];
                     continue;
@@ -199,7 +194,7 @@ impl Hierarchy {
                 }
                 height -= 1;
                 let entry = stack[height & (ENTRIES - 1)];
-                if f32::from_bits((entry >> 32) as u32) <= reach {
+                if !ORDERED || f32::from_bits((entry >> 32) as u32) <= reach {
                     current = Child(entry as u32);
                     break;
                 }

@@ -200,10 +200,11 @@ impl Work for Each<'_> {
                     &filter,
                     &shear,
                     places,
+                    (from, to),
                     #[inline(always)]
-                    |triangle, met| {
-                        if met.t > from && met.t < to {
-                            found(Crossing { t: met.t, part: triangle });
+                    |triangle, t| {
+                        if t < to {
+                            found(Crossing { t, part: triangle });
                         }
                     },
                 );
@@ -228,11 +229,11 @@ impl Facets {
             filter,
             shear,
             places,
+            (0.0, nearest.t),
             #[inline(always)]
-            |triangle, met| {
-                let is_first = met.t == nearest.t && triangle < nearest.part;
-                if met.t > 0.0 && (met.t < nearest.t || is_first) {
-                    nearest = Crossing { t: met.t, part: triangle };
+            |triangle, t| {
+                if t < nearest.t || t == nearest.t && triangle < nearest.part {
+                    nearest = Crossing { t, part: triangle };
                 }
             },
         );
