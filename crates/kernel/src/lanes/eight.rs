@@ -1,5 +1,7 @@
 use super::{One, Wide};
-use fearless_simd::{Level, Select, Simd, SimdBase, SimdFloat, SimdMask, f32x8, f64x8, mask64x8};
+use fearless_simd::{
+    Level, Select, Simd, SimdBase, SimdFloat, SimdMask, f32x8, f64x8, mask32x8, mask64x8, u32x8,
+};
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
 
 /// Eight numbers at once, however many a register holds: for what comes in eights
@@ -15,6 +17,8 @@ pub trait Eight: Copy {
 
     /// Whether a fused multiply-add is an instruction; else it takes a function's time.
     fn fuses(self) -> bool;
+    /// Writes those numbers first whose bits are set, in their order, and anything behind.
+    fn pack(self, from: &[u32; 8], bits: u32, to: &mut [u32; 8]);
     /// The same single eight times.
     fn single(self, x: f32) -> Self::Singles;
     /// These singles.
@@ -97,6 +101,12 @@ impl<S: Simd> Eight for Wide<S> {
             Level::Neon(_) => true,
             _ => false,
         }
+    }
+
+    #[inline(always)]
+    fn pack(self, from: &[u32; 8], bits: u32, to: &mut [u32; 8]) {
+        let mask = mask32x8::from_bitmask(self.0, u64::from(bits));
+        u32x8::from_slice(self.0, from).compress(mask).store_slice(to);
     }
 
     #[inline(always)]
@@ -289,6 +299,13 @@ impl Eight for One {
     #[inline(always)]
     fn fuses(self) -> bool {
         false
+    }
+
+    #[inline(always)]
+    fn pack(self, from: &[u32; 8], bits: u32, to: &mut [u32; 8]) {
+        for (to, lane) in to.iter_mut().zip(super::lanes_of(bits)) {
+            *to = from[lane & 7];
+        }
     }
 
     #[inline(always)]

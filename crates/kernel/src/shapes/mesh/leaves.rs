@@ -274,11 +274,7 @@ impl<E: Eight> Filter<E> {
 
     /// The t of each, with the operations of [`Shear::meet_turned`].
     #[inline(always)]
-    fn distances(
-        &self,
-        [a, b, c]: [Corner<E::Doubles>; 3],
-        areas: [E::Doubles; 3],
-    ) -> E::Doubles {
+    fn distances(&self, [a, b, c]: [Corner<E::Doubles>; 3], areas: [E::Doubles; 3]) -> E::Doubles {
         let sum = areas[0] + areas[1] + areas[2];
         let weights = [areas[0] / sum, areas[1] / sum, areas[2] / sum];
         let [az, bz, cz] = [a.from_origin[2], b.from_origin[2], c.from_origin[2]];
