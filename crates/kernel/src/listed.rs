@@ -340,7 +340,7 @@ impl Listed {
             let fastest = if toward < cosine { along + across } else { 1.0 };
             distances[k] = (height.abs() - slack) / (fastest + STEEP);
             let slowest = along - across;
-            if toward > sine && slowest > 2.0 * STEEP {
+            if slowest > 2.0 * STEEP {
                 farthest = farthest.min((height.abs() + slack) / (slowest - STEEP));
             }
         }
@@ -396,9 +396,8 @@ impl Listed {
             let off = (from_centre - way * along).norm_squared();
             let slack = 1e-9 * (size + bound(&ball.centre.coords) + bound(&from_centre) + radius);
             let reach = ball.radius + radius + slack;
-            if off > reach * reach {
-                among.balls &= !(1 << k);
-            }
+            // Without a branch, which nobody could predict.
+            among.balls &= !(u64::from(off > reach * reach) << k);
         }
         for (k, (item, plane)) in self.planes.iter().enumerate() {
             let normal = plane.unit();
@@ -411,14 +410,12 @@ impl Listed {
                 Goal::Direction(direction) => (normal.dot(direction), SLACK),
             };
             let near = SLACK * size + radius;
-            let above = height > near && of_goal > slack;
-            let below = height < -near && of_goal < -slack;
+            let above = (height > near) & (of_goal > slack);
+            let below = (height < -near) & (of_goal < -slack);
             let leaves = leaving.is_some_and(|(leaving, side)| {
                 leaving == *item && of_goal * side.dot(&normal).signum() > slack
             });
-            if above || below || leaves {
-                among.planes &= !(1 << k);
-            }
+            among.planes &= !(u64::from(above | below | leaves) << k);
         }
         among
     }
@@ -463,7 +460,7 @@ fn next_bit(bits: &mut u64) -> Option<usize> {
 
 #[cfg(test)]
 mod tests {
-    use crate::lanes::One;
+    use crate::lanes::{Lanes, One};
     use crate::{Candidates, Prepared, Rays};
     use fastrand::Rng;
     use lancer_math::{Point, Ray, Vector, unit};
@@ -504,17 +501,58 @@ mod tests {
                 let way = edges.iter().map(|edge| edge * weight()).sum::<Vector>();
                 let ray = Ray::new(eye, way);
                 let rays = Rays::splat(One, &ray);
-                let hit = prepared.nearest_in_lanes(
-                    &rays,
-                    f64::INFINITY,
-                    crate::lanes::Lanes::mask(One, 1),
-                    (&among, None),
-                );
+                let hit =
+                    prepared.nearest_in_lanes(&rays, f64::INFINITY, One.mask(1), (&among, None));
                 let expected = prepared.nearest(&ray, f64::INFINITY);
                 let found = (hit.item >= 0.0).then_some((hit.t, hit.item as u32));
                 assert_eq!(found, expected.map(|hit| (hit.t, hit.item)), "case {case}");
             }
         }
         assert!(left_out > 500, "{left_out}");
+    }
+
+    /// Rays from a ball of points and within a cone, among planes and balls.
+    #[test]
+    fn what_a_cone_leaves_out_is_never_the_nearest() {
+        let mut rng = Rng::with_seed(31);
+        let mut left_out = 0;
+        for case in 0..3000 {
+            let mut vector = || {
+                let mut number = || 2.0 * rng.f64() - 1.0;
+                Vector::new(number(), number(), number())
+            };
+            let mut scene =
+                Scene::builder().camera(Camera::new([0.0; 3], [1.0, 0.0, 0.0], 1.0, [1, 1]));
+            let surface = || Surface::new(Colour::RED);
+            for _ in 0..4 {
+                let normal = vector() + Vector::new(0.0, 0.0, 1e-9);
+                let at = normal * 5.0 + vector() * [1e-12, 1.0, 5.0][case % 3];
+                scene = scene.shape(Shape::plane(at.into(), normal.into(), surface()));
+                let at: [f64; 3] = (vector() * 6.0).into();
+                scene = scene.shape(Shape::sphere(at, 0.5, surface()));
+            }
+            let prepared = Prepared::new(&scene.build().expect("valid"));
+            let centre = Point::from(vector());
+            let radius = [0.0, 1e-6, 0.1, 1.0][case / 3 % 4];
+            let axis = unit(vector()).expect("not zero");
+            let cosine = 1.0 - [1e-12, 1e-6, 1e-3, 0.1, 0.6][case / 12 % 5];
+            let among = prepared.candidates_in_cone(&centre, radius, &axis, cosine);
+            left_out += usize::from(among != prepared.listed().all());
+            let tangent = (1.0 - cosine * cosine).sqrt() / cosine;
+            for _ in 0..20 {
+                let across = axis.cross(&vector());
+                let across = across / across.norm() * tangent * [1.0, vector().x.abs()][case % 2];
+                let way = unit(axis + across).expect("not zero");
+                let from = centre + vector() * (radius * 0.57);
+                let rays = Rays::splat(One, &Ray::new(from, way));
+                let nearest = |among: &Candidates| {
+                    let far = f64::INFINITY;
+                    let hit = prepared.nearest_in_lanes(&rays, far, One.mask(1), (among, None));
+                    (hit.t, hit.item)
+                };
+                assert_eq!(nearest(&among), nearest(&Candidates::ALL), "case {case}");
+            }
+        }
+        assert!(left_out > 1000, "{left_out}");
     }
 }
