@@ -64,7 +64,7 @@ pub use checker::LaneCells;
 use crossing::Crossing;
 pub mod lanes;
 pub use hit::{Hit, SurfacePoint};
-pub use listed::{Candidates, Goal, LaneHits, LanePoints};
+pub use listed::{Candidates, Goal, LaneHits, LanePoints, ListedShape};
 pub use prepared::{Prepared, Which};
 pub use rays::Rays;
 pub use settings::{Culling, KernelSettings};

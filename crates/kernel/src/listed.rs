@@ -1,12 +1,14 @@
 //! Spheres and planes that stand by themselves, if they are few: whole registers
 //! of rays are held against each, so that for them no hierarchy is needed.
 
+use crate::checker::{self, LaneCells};
 use crate::lanes::{Lanes, Mask, Real, Vectors};
 use crate::rays::Rays;
 use crate::shapes::plane::{HalfSpace, HalfSpaces};
 use crate::shapes::sphere::{Ball, Balls};
 use crate::{Prepared, Which};
 use lancer_math::{Point, Vector};
+use lancer_scene::Checker;
 
 /// As many of a kind as there are bits.
 pub(crate) const MOST_LISTED: usize = 64;
@@ -97,6 +99,46 @@ pub struct LanePoints<R> {
     pub normal: Vectors<R>,
 }
 
+/// A shape that is met in lanes.
+#[derive(Debug, Clone, Copy)]
+pub struct ListedShape<'a>(Kind<'a>);
+
+#[derive(Debug, Clone, Copy)]
+enum Kind<'a> {
+    Ball(&'a Ball),
+    Plane(&'a HalfSpace),
+}
+
+impl ListedShape<'_> {
+    /// The points of hits that a register of rays has with it;
+    /// [`Prepared::expand`] gives the same, one by one.
+    #[inline(always)]
+    pub fn points<L: Lanes>(&self, rays: &Rays<L>, t: L::Real) -> LanePoints<L::Real> {
+        let (point, error, normal) = match self.0 {
+            Kind::Ball(ball) => Balls::splat(rays.lanes, ball).contacts(rays, t),
+            Kind::Plane(plane) => HalfSpaces::splat(rays.lanes, plane).contacts(rays, t),
+        };
+        LanePoints { point, error, normal }
+    }
+
+    /// Which colours of a checker those points show.
+    #[inline(always)]
+    pub fn cells<L: Lanes>(
+        &self,
+        lanes: L,
+        points: &LanePoints<L::Real>,
+        checker: &Checker,
+    ) -> LaneCells<L::Mask> {
+        match self.0 {
+            Kind::Ball(_) => checker::on_globe(lanes, &points.normal, checker.angle.get()),
+            Kind::Plane(plane) => {
+                let (first, second) = plane.squares(lanes, &points.point, checker);
+                checker::cells(lanes, first, second)
+            }
+        }
+    }
+}
+
 /// Where a batch of rays goes.
 #[derive(Debug, Clone, Copy)]
 pub enum Goal {
@@ -108,6 +150,9 @@ pub enum Goal {
 
 /// Generous for all roundings of products of a few terms, relative to the largest.
 const SLACK: f64 = 1e-12;
+
+/// Generous for a sine that is found from a cosine.
+const STEEP: f64 = 1e-7;
 
 impl Listed {
     pub(crate) fn add_ball(&mut self, item: u32, ball: Ball, transparent: bool) {
@@ -137,25 +182,25 @@ impl Listed {
 
     /// The nearest hits with 0 < t < `t_max`, those of the first item where several
     /// are equally near. A ray leaves the outside of the ball of the number in `outside`, if
-    /// that is one, by more than the error of its point.
+    /// that is one, by more than the error of its point. Cases may be `plain`:
+    /// [`Culling::plain_cases`](crate::Culling::plain_cases).
     #[inline(always)]
     pub(crate) fn nearest<L: Lanes>(
         &self,
         rays: &Rays<L>,
         t_max: L::Real,
-        among: &Candidates,
-        outside: Option<L::Real>,
+        (among, outside): (&Candidates, Option<L::Real>),
+        plain: bool,
     ) -> LaneHits<L::Real> {
         let lanes = rays.lanes;
-        let zero = lanes.splat(0.0);
+        let (zero, every) = (lanes.splat(0.0), lanes.first(L::WIDTH));
         let mut best = LaneHits { t: t_max, item: lanes.splat(-1.0), part: zero };
         let all = self.all();
         let mut asked = among.planes & all.planes;
         while let Some(k) = next_bit(&mut asked) {
             let (item, plane) = &self.planes[k];
             let (ahead, slope) = HalfSpaces::splat(lanes, plane).slopes(rays);
-            // Of different signs they are behind.
-            let may = same_sign(ahead, slope, zero) & ahead.abs().lt(within(slope, best.t));
+            let may = if plain { may_reach(ahead, slope, best.t, zero) } else { every };
             if may.any() {
                 let t = ahead / slope;
                 best.consider(t, lanes.splat(f64::from(*item)), may & t.gt(zero));
@@ -170,7 +215,7 @@ impl Listed {
             let (item, ball) = &self.balls[k];
             let balls = Balls::splat(lanes, ball);
             let item = lanes.splat(f64::from(*item));
-            let mut may = balls.may_meet(rays, &tame);
+            let mut may = if plain { balls.may_meet(rays, &tame) } else { every };
             if let Some(outside) = outside {
                 may = may & (balls.may_come_back(rays, &tame) | !outside.eq(item));
             }
@@ -183,24 +228,24 @@ impl Listed {
     }
 
     /// Which rays hit one of some shapes with 0 < t < `t_max`. All leave the outside of the
-    /// ball `outside`, if that is one, by more than the error of their points.
+    /// ball `outside`, if that is one, by more than the error of their points. Cases
+    /// may be `plain` as for [`nearest`](Self::nearest).
     #[inline(always)]
     pub(crate) fn any<L: Lanes>(
         &self,
         rays: &Rays<L>,
-        t_max: f64,
-        which: Which,
-        among: &Candidates,
-        outside: Option<u32>,
+        (t_max, which): (f64, Which),
+        (among, outside): (&Candidates, Option<u32>),
+        plain: bool,
     ) -> L::Mask {
-        let lanes = rays.lanes;
+        let (lanes, every) = (rays.lanes, rays.lanes.first(L::WIDTH));
         let (zero, t_max) = (lanes.splat(0.0), lanes.splat(t_max));
         let of = self.of(which);
         let mut met = lanes.mask(0);
         let mut asked = among.planes & of.planes;
         while let Some(k) = next_bit(&mut asked) {
             let (ahead, slope) = HalfSpaces::splat(lanes, &self.planes[k].1).slopes(rays);
-            let may = same_sign(ahead, slope, zero) & ahead.abs().lt(within(slope, t_max));
+            let may = if plain { may_reach(ahead, slope, t_max, zero) } else { every };
             if may.any() {
                 let t = ahead / slope;
                 met = met | (t.gt(zero) & t.lt(t_max));
@@ -216,6 +261,8 @@ impl Listed {
             let balls = Balls::splat(lanes, ball);
             let may = if Some(*item) == outside {
                 balls.may_come_back(rays, &tame)
+            } else if !plain {
+                every
             } else {
                 let may = balls.may_meet(rays, &tame);
                 if !may.any() {
@@ -232,40 +279,28 @@ impl Listed {
         met
     }
 
-    /// The points where rays hit the shape of that number, if it is listed.
-    #[inline(always)]
-    pub(crate) fn contacts<L: Lanes>(
-        &self,
-        item: u32,
-        rays: &Rays<L>,
-        t: L::Real,
-    ) -> Option<LanePoints<L::Real>> {
-        let (point, error, normal) = if let Some(plane) = self.plane(item) {
-            HalfSpaces::splat(rays.lanes, plane).contacts(rays, t)
-        } else {
-            let k = self.balls.binary_search_by_key(&item, |(item, _)| *item).ok()?;
-            Balls::splat(rays.lanes, &self.balls[k].1).contacts(rays, t)
-        };
-        Some(LanePoints { point, error, normal })
+    /// The shape of that number, if it is listed.
+    pub(crate) fn shape(&self, item: u32) -> Option<ListedShape<'_>> {
+        if let Ok(k) = self.planes.binary_search_by_key(&item, |(item, _)| *item) {
+            return Some(ListedShape(Kind::Plane(&self.planes[k].1)));
+        }
+        let k = self.balls.binary_search_by_key(&item, |(item, _)| *item).ok()?;
+        Some(ListedShape(Kind::Ball(&self.balls[k].1)))
     }
 
-    #[inline(always)]
-    pub(crate) fn plane(&self, item: u32) -> Option<&HalfSpace> {
-        let k = self.planes.binary_search_by_key(&item, |(item, _)| *item).ok()?;
-        Some(&self.planes[k].1)
+    /// Whether there is nothing of some kind among candidates.
+    pub(crate) fn has_none(&self, which: Which, among: &Candidates) -> bool {
+        let of = self.of(which);
+        among.balls & of.balls == 0 && among.planes & of.planes == 0
     }
 
-    pub(crate) fn is_listed(&self, item: u32) -> bool {
-        self.plane(item).is_some()
-            || self.balls.binary_search_by_key(&item, |(item, _)| *item).is_ok()
-    }
-
-    /// What rays may meet that start in a ball and whose angle with an axis of length 1
-    /// has at least that cosine.
+    /// What rays of length 1 may meet that start in a ball and whose angle with an axis of
+    /// length 1 has at least that cosine.
     ///
     /// They are all within the ball's radius of the cone at its centre. A ball is
     /// left out if it is so far beyond the tangent plane of the cone that is nearest to
-    /// it, a plane if all start on one side of it and go away from it.
+    /// it, a plane if all start on one side of it and go away from it. So is what is
+    /// farther away than any ray goes before it meets another plane, which all of them meet.
     pub(crate) fn in_cone(
         &self,
         centre: &Point,
@@ -280,16 +315,9 @@ impl Listed {
         // Wider by more than roundings.
         let cosine = cosine * (1.0 - SLACK);
         let sine = (1.0 - cosine * cosine).sqrt();
-        for (k, (_, ball)) in self.balls.iter().enumerate() {
-            let v = ball.centre - centre;
-            let along = v.dot(axis);
-            let across = (v - axis * along).norm();
-            let beyond = across * cosine - along * sine;
-            let slack = 1e-9 * (bound(&v) + bound(&centre.coords) + bound(&ball.centre.coords));
-            if beyond > (ball.radius + radius) * (1.0 + SLACK) + slack {
-                among.balls &= !(1 << k);
-            }
-        }
+        // No ray goes farther, and how far each plane is at least.
+        let mut farthest = f64::INFINITY;
+        let mut distances = [0.0; MOST_LISTED];
         for (k, (_, plane)) in self.planes.iter().enumerate() {
             let normal = plane.unit();
             let height = normal.dot(&(centre - plane.origin));
@@ -302,9 +330,35 @@ impl Listed {
             } else {
                 continue;
             };
-            let most = toward * cosine + (1.0 - toward * toward).max(0.0).sqrt() * sine;
-            if most < -1e-7 && toward < cosine {
+            // How fast the fastest and the slowest of them approach it.
+            let along = toward * cosine;
+            let across = (1.0 - toward * toward).max(0.0).sqrt() * sine;
+            if toward < cosine && along + across < -STEEP {
                 among.planes &= !(1 << k);
+                continue;
+            }
+            let fastest = if toward < cosine { along + across } else { 1.0 };
+            distances[k] = (height.abs() - slack) / (fastest + STEEP);
+            let slowest = along - across;
+            if slowest > 2.0 * STEEP {
+                farthest = farthest.min((height.abs() + slack) / (slowest - STEEP));
+            }
+        }
+        farthest *= 1.0 + 1e-9;
+        for (k, distance) in distances.iter().enumerate().take(self.planes.len()) {
+            if *distance > farthest {
+                among.planes &= !(1 << k);
+            }
+        }
+        for (k, (_, ball)) in self.balls.iter().enumerate() {
+            let v = ball.centre - centre;
+            let along = v.dot(axis);
+            let across = (v - axis * along).norm();
+            let beyond = across * cosine - along * sine;
+            let slack = 1e-9 * (bound(&v) + bound(&centre.coords) + bound(&ball.centre.coords));
+            let reach = (ball.radius + radius) * (1.0 + SLACK) + slack;
+            if beyond > reach || along - reach > farthest {
+                among.balls &= !(1 << k);
             }
         }
         among
@@ -342,9 +396,8 @@ impl Listed {
             let off = (from_centre - way * along).norm_squared();
             let slack = 1e-9 * (size + bound(&ball.centre.coords) + bound(&from_centre) + radius);
             let reach = ball.radius + radius + slack;
-            if off > reach * reach {
-                among.balls &= !(1 << k);
-            }
+            // Without a branch, which nobody could predict.
+            among.balls &= !(u64::from(off > reach * reach) << k);
         }
         for (k, (item, plane)) in self.planes.iter().enumerate() {
             let normal = plane.unit();
@@ -357,14 +410,12 @@ impl Listed {
                 Goal::Direction(direction) => (normal.dot(direction), SLACK),
             };
             let near = SLACK * size + radius;
-            let above = height > near && of_goal > slack;
-            let below = height < -near && of_goal < -slack;
+            let above = (height > near) & (of_goal > slack);
+            let below = (height < -near) & (of_goal < -slack);
             let leaves = leaving.is_some_and(|(leaving, side)| {
                 leaving == *item && of_goal * side.dot(&normal).signum() > slack
             });
-            if above || below || leaves {
-                among.planes &= !(1 << k);
-            }
+            among.planes &= !(u64::from(above | below | leaves) << k);
         }
         among
     }
@@ -379,18 +430,15 @@ impl<R: Real> LaneHits<R> {
     }
 }
 
-/// How far ahead a plane is, at least, that is `t` away or farther along a ray of that
-/// slope: so that nothing is divided where no ray can reach it.
+/// Where a plane that is so far ahead may be met before `t` by a ray of that slope: never
+/// too few.
 #[inline(always)]
-fn within<R: Real>(slope: R, t: R) -> R {
+fn may_reach<R: Real>(ahead: R, slope: R, t: R, zero: R) -> R::Mask {
+    // Of different signs it is behind.
+    let is_ahead = (ahead.gt(zero) & slope.gt(zero)) | (ahead.lt(zero) & slope.lt(zero));
     // More than the product and the quotient may be rounded, and lose near 0.
-    slope.abs() * (t * (1.0 + 4.0 * f64::EPSILON)) + 1e-300
-}
-
-/// Whether both are positive or both negative.
-#[inline(always)]
-fn same_sign<R: Real>(a: R, b: R, zero: R) -> R::Mask {
-    (a.gt(zero) & b.gt(zero)) | (a.lt(zero) & b.lt(zero))
+    let reach = slope.abs() * (t * (1.0 + 4.0 * f64::EPSILON)) + 1e-300;
+    is_ahead & ahead.abs().lt(reach)
 }
 
 /// At least the length, and less than twice that.
@@ -412,7 +460,7 @@ fn next_bit(bits: &mut u64) -> Option<usize> {
 
 #[cfg(test)]
 mod tests {
-    use crate::lanes::One;
+    use crate::lanes::{Lanes, One};
     use crate::{Candidates, Prepared, Rays};
     use fastrand::Rng;
     use lancer_math::{Point, Ray, Vector, unit};
@@ -453,17 +501,58 @@ mod tests {
                 let way = edges.iter().map(|edge| edge * weight()).sum::<Vector>();
                 let ray = Ray::new(eye, way);
                 let rays = Rays::splat(One, &ray);
-                let hit = prepared.nearest_in_lanes(
-                    &rays,
-                    f64::INFINITY,
-                    crate::lanes::Lanes::mask(One, 1),
-                    (&among, None),
-                );
+                let hit =
+                    prepared.nearest_in_lanes(&rays, f64::INFINITY, One.mask(1), (&among, None));
                 let expected = prepared.nearest(&ray, f64::INFINITY);
                 let found = (hit.item >= 0.0).then_some((hit.t, hit.item as u32));
                 assert_eq!(found, expected.map(|hit| (hit.t, hit.item)), "case {case}");
             }
         }
         assert!(left_out > 500, "{left_out}");
+    }
+
+    /// Rays from a ball of points and within a cone, among planes and balls.
+    #[test]
+    fn what_a_cone_leaves_out_is_never_the_nearest() {
+        let mut rng = Rng::with_seed(31);
+        let mut left_out = 0;
+        for case in 0..3000 {
+            let mut vector = || {
+                let mut number = || 2.0 * rng.f64() - 1.0;
+                Vector::new(number(), number(), number())
+            };
+            let mut scene =
+                Scene::builder().camera(Camera::new([0.0; 3], [1.0, 0.0, 0.0], 1.0, [1, 1]));
+            let surface = || Surface::new(Colour::RED);
+            for _ in 0..4 {
+                let normal = vector() + Vector::new(0.0, 0.0, 1e-9);
+                let at = normal * 5.0 + vector() * [1e-12, 1.0, 5.0][case % 3];
+                scene = scene.shape(Shape::plane(at.into(), normal.into(), surface()));
+                let at: [f64; 3] = (vector() * 6.0).into();
+                scene = scene.shape(Shape::sphere(at, 0.5, surface()));
+            }
+            let prepared = Prepared::new(&scene.build().expect("valid"));
+            let centre = Point::from(vector());
+            let radius = [0.0, 1e-6, 0.1, 1.0][case / 3 % 4];
+            let axis = unit(vector()).expect("not zero");
+            let cosine = 1.0 - [1e-12, 1e-6, 1e-3, 0.1, 0.6][case / 12 % 5];
+            let among = prepared.candidates_in_cone(&centre, radius, &axis, cosine);
+            left_out += usize::from(among != prepared.listed().all());
+            let tangent = (1.0 - cosine * cosine).sqrt() / cosine;
+            for _ in 0..20 {
+                let across = axis.cross(&vector());
+                let across = across / across.norm() * tangent * [1.0, vector().x.abs()][case % 2];
+                let way = unit(axis + across).expect("not zero");
+                let from = centre + vector() * (radius * 0.57);
+                let rays = Rays::splat(One, &Ray::new(from, way));
+                let nearest = |among: &Candidates| {
+                    let far = f64::INFINITY;
+                    let hit = prepared.nearest_in_lanes(&rays, far, One.mask(1), (among, None));
+                    (hit.t, hit.item)
+                };
+                assert_eq!(nearest(&among), nearest(&Candidates::ALL), "case {case}");
+            }
+        }
+        assert!(left_out > 1000, "{left_out}");
     }
 }
