@@ -57,12 +57,12 @@ impl<E: Eight> Axis<E> {
 
     #[inline(always)]
     fn enter(&self, lanes: E, faces: &[[f32; CHILDREN]; 2]) -> E::Singles {
-        lanes.singles(&faces[self.side & 1]).mul_add(self.inverse, self.offset[0])
+        lanes.singles(&faces[self.side & 1]).near_mul_add(self.inverse, self.offset[0])
     }
 
     #[inline(always)]
     fn leave(&self, lanes: E, faces: &[[f32; CHILDREN]; 2]) -> E::Singles {
-        lanes.singles(&faces[self.side & 1 ^ 1]).mul_add(self.inverse, self.offset[1])
+        lanes.singles(&faces[self.side & 1 ^ 1]).near_mul_add(self.inverse, self.offset[1])
     }
 }
 

@@ -33,9 +33,10 @@ pub trait Eight: Copy {
 
 /// Eight singles.
 pub trait Singles: Copy {
-    /// `self` times `a` plus `b`, rounded once or twice.
+    /// `self` times `a` plus `b`, rounded once or twice, as the machine has it: only for
+    /// bounds with room for either.
     #[must_use]
-    fn mul_add(self, a: Self, b: Self) -> Self;
+    fn near_mul_add(self, a: Self, b: Self) -> Self;
     /// The smaller ones. Neither may be NaN.
     #[must_use]
     fn min(self, other: Self) -> Self;
@@ -138,7 +139,8 @@ impl<S: Simd> Eight for Wide<S> {
 
 impl<S: Simd> Singles for Wide<f32x8<S>> {
     #[inline(always)]
-    fn mul_add(self, a: Self, b: Self) -> Self {
+    #[expect(clippy::disallowed_methods, reason = "what is asked for")]
+    fn near_mul_add(self, a: Self, b: Self) -> Self {
         Self(self.0.mul_add(a.0, b.0))
     }
 
@@ -394,7 +396,7 @@ one_by_one!(doubles, Doubles for f64,
 
 impl Singles for Array<f32> {
     #[inline(always)]
-    fn mul_add(self, a: Self, b: Self) -> Self {
+    fn near_mul_add(self, a: Self, b: Self) -> Self {
         Self(std::array::from_fn(
             #[inline(always)]
             |i| self.0[i] * a.0[i] + b.0[i],

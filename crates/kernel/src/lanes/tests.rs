@@ -1,7 +1,9 @@
 //! Each operation gives, in each lane and for each width that this processor has,
 //! the very bits of the plain operation on one double.
 
-use super::{Answers as _, Doubles as _, Lanes, MOST, Mask, Real, Width, Work, dispatch, lanes_of};
+use super::{
+    Answers as EightAnswers, Doubles as _, Lanes, MOST, Mask, Real, Width, Work, dispatch, lanes_of,
+};
 use fastrand::Rng;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -409,7 +411,7 @@ impl Work for InEights {
             result.store(&mut to);
             to.map(f64::to_bits).to_vec()
         });
-        let answers = [a.lt(b), a.le(b), a.gt(b), a.ge(b)].map(|answers| answers.bits());
+        let answers = [a.lt(b), a.le(b), a.gt(b), a.ge(b)].map(EightAnswers::bits);
         let mut packed = [0; 8];
         lanes.pack(&[0, 1, 2, 3, 4, 5, 6, 7], self.bits, &mut packed);
         let count = self.bits.count_ones() as usize;
