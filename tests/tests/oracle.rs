@@ -8,11 +8,15 @@ use lancer_tests::golden;
 fn look() {
     let bits = 160;
     for golden in golden::all().unwrap_or_else(|problems| panic!("{}", problems[0])) {
-        if golden.engine() != "whitted" { continue; }
+        if golden.engine() != "whitted" {
+            continue;
+        }
         let scene = golden.scene().unwrap_or_else(|e| panic!("{e}"));
         let engine = Whitted::with_cutoff(1e-9).expect("in range");
         let start = std::time::Instant::now();
-        let film = render(&scene, &engine, &RenderSettings::default()).unwrap_or_else(|e| panic!("{e}")).film;
+        let film = render(&scene, &engine, &RenderSettings::default())
+            .unwrap_or_else(|e| panic!("{e}"))
+            .film;
         let t_render = start.elapsed();
         let tracer = Tracer::new(&scene, bits, 1e-9, 60);
         let (w, h) = (scene.camera.px_width.get(), scene.camera.px_height.get());
@@ -25,13 +29,34 @@ fn look() {
             let pixel = tracer.follow(x, y);
             let truth = pixel.radiance.to_f64();
             let found = film.pixels()[(y * w + x) as usize];
-            let error = truth.iter().zip(found).map(|(t, f)| (t - f64::from(f)).abs() / t.abs().max(1e-6)).fold(0.0, f64::max);
-            if pixel.margin < 1e-9 { unsure += 1; 
-                if error > 1e-6 && std::env::var("SHOW").is_ok() { println!("   unsure {x} {y}: {truth:?} {found:?} {:e}", pixel.margin); }
-                continue; }
+            let error = truth
+                .iter()
+                .zip(found)
+                .map(|(t, f)| (t - f64::from(f)).abs() / t.abs().max(1e-6))
+                .fold(0.0, f64::max);
+            if pixel.margin < 1e-9 {
+                unsure += 1;
+                if error > 1e-6 && std::env::var("SHOW").is_ok() {
+                    println!("   unsure {x} {y}: {truth:?} {found:?} {:e}", pixel.margin);
+                }
+                continue;
+            }
             worst = worst.max(error);
-            if error > 2e-7 { bad += 1; if bad < 6 { println!("   {x} {y}: {truth:?} {found:?} margin {:e} missing {:e}", pixel.margin, pixel.missing); } }
+            if error > 2e-7 {
+                bad += 1;
+                if bad < 6 {
+                    println!(
+                        "   {x} {y}: {truth:?} {found:?} margin {:e} missing {:e}",
+                        pixel.margin, pixel.missing
+                    );
+                }
+            }
         }
-        println!("{}: {n} pixels in {:?} (render {:?}), {unsure} unsure, {bad} bad, worst {worst:e}", golden.name(), start.elapsed(), t_render);
+        println!(
+            "{}: {n} pixels in {:?} (render {:?}), {unsure} unsure, {bad} bad, worst {worst:e}",
+            golden.name(),
+            start.elapsed(),
+            t_render
+        );
     }
 }

@@ -144,7 +144,7 @@ fn volume(world: &World<'_>, number: usize) -> f64 {
         Geometry::Sphere(sphere) => {
             let r = sphere.radius.get();
             4.0 / 3.0 * PI * r * r * r
-        },
+        }
         Geometry::Cuboid(cuboid) => (cuboid.max() - cuboid.min()).product(),
         Geometry::Tetrahedron(solid) => {
             let [a, b, c, d] = solid.corners();
@@ -154,9 +154,7 @@ fn volume(world: &World<'_>, number: usize) -> f64 {
             let (a, b) = (cone.base_radius(), cone.top_radius());
             PI / 3.0 * (cone.top() - cone.base()).norm() * (a * a + a * b + b * b)
         }
-        Geometry::Torus(torus) => {
-            2.0 * PI * PI * torus.ring() * torus.tube() * torus.tube()
-        },
+        Geometry::Torus(torus) => 2.0 * PI * PI * torus.ring() * torus.tube() * torus.tube(),
         Geometry::Mesh(mesh) => mesh.signed_volume().abs(),
         Geometry::Plane(_)
         | Geometry::Disc(_)
