@@ -1,10 +1,10 @@
 //! Compares what the kernel says about a ray with what is exactly so.
 
-use crate::case::{Case, Entry};
-use crate::dd::Dd;
-use crate::figure::BAND;
-use crate::sample::{any_direction, power_of_ten};
-use crate::tally::Tally;
+use super::case::{Case, Entry};
+use super::dd::Dd;
+use super::figure::BAND;
+use super::sample::{any_direction, power_of_ten};
+use super::tally::Tally;
 use fastrand::Rng;
 use lancer_kernel::{Hit, Which};
 use lancer_math::{Ray, Vector};

@@ -1,8 +1,8 @@
 //! Random meshes: lumpy balls, boxes in small pieces, and hilly sheets.
 
-use crate::facets::Facets;
-use crate::sample::{Curve, Patch, Sample, any_direction, between, power_of_ten};
-use crate::subject::Subject;
+use super::facets::Facets;
+use super::sample::{Curve, Patch, Sample, any_direction, between, power_of_ten};
+use super::subject::Subject;
 use fastrand::Rng;
 use lancer_math::{Point, Vector, unit};
 use lancer_scene::{Mesh, Shape, Surface};

@@ -1,20 +1,20 @@
 //! Random shapes, each with its own description of itself.
 
-use crate::cone::Side;
-use crate::convex::{Convex, Face};
-use crate::dd::Dd;
-use crate::figure::Figure;
-use crate::mesh::random_mesh;
-use crate::sample::{Curve, Patch, Sample, across, any_direction, between, power_of_ten};
-use crate::sheets::{Flat, Outline, Tube};
-use crate::space::Long;
-use crate::torus::Ring;
+use super::cone::Side;
+use super::convex::{Convex, Face};
+use super::dd::Dd;
+use super::figure::Figure;
+use super::mesh::random_mesh;
+use super::sample::{Curve, Patch, Sample, across, any_direction, between, power_of_ten};
+use super::sheets::{Flat, Outline, Tube};
+use super::space::Long;
+use super::torus::Ring;
 use fastrand::Rng;
 use lancer_math::{Point, Vector};
 use lancer_scene::{Colour, Geometry, InvalidField, Shape, Surface};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Kind {
+pub enum Kind {
     Sphere,
     Plane,
     Disc,

@@ -1,8 +1,8 @@
 //! What a test has seen: figures to print, and what went wrong.
 
-use crate::case::{Case, Entry};
-use crate::figure::Crossing;
-use crate::judge::Asked;
+use super::case::{Case, Entry};
+use super::figure::Crossing;
+use super::judge::Asked;
 use lancer_kernel::Hit;
 use lancer_math::Ray;
 use std::fmt;

@@ -1,8 +1,8 @@
 //! What a shape is to the test: all its crossings with a line, each with how
 //! sure it is.
 
-use crate::dd::Dd;
-use crate::space::{Line, Long};
+use super::dd::Dd;
+use super::space::{Line, Long};
 
 /// A crossing, or a place where there nearly is one.
 #[derive(Debug, Clone, Copy)]

@@ -1,9 +1,9 @@
 //! Surfaces with edges: pieces of planes, and sides of cones without lids.
 
-use crate::cone::{Side, Within};
-use crate::dd::Dd;
-use crate::figure::{BAND, Crossing, Figure};
-use crate::space::{Line, Long};
+use super::cone::{Side, Within};
+use super::dd::Dd;
+use super::figure::{BAND, Crossing, Figure};
+use super::space::{Line, Long};
 
 /// How far a plane reaches.
 #[derive(Debug)]

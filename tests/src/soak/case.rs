@@ -1,9 +1,9 @@
 //! Random scenes of one kind of shape, and random rays to ask them with.
 
-use crate::figure::Crossing;
-use crate::sample::{any_direction, between, power_of_ten};
-use crate::space::{Frame, Line, Long};
-use crate::subject::{Kind, Subject};
+use super::figure::Crossing;
+use super::sample::{any_direction, between, power_of_ten};
+use super::space::{Frame, Line, Long};
+use super::subject::{Kind, Subject};
 use fastrand::Rng;
 use lancer_kernel::Prepared;
 use lancer_math::{Placement, Point, Ray, Vector};

@@ -1,9 +1,9 @@
 //! The curved side of cylinders, cones and frustums: the points whose distance
 //! from the axis is a linear function of where they are along it.
 
-use crate::dd::Dd;
-use crate::figure::WAVER;
-use crate::space::{Line, Long};
+use super::dd::Dd;
+use super::figure::WAVER;
+use super::space::{Line, Long};
 
 #[derive(Debug)]
 pub(crate) struct Side {

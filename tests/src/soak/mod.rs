@@ -1,9 +1,6 @@
 //! The kernel against intersections that are written another way: in numbers
 //! twice as long, from the implicit functions of the shapes, by brute force. No
 //! formula is shared.
-//!
-//! A hundred random scenes for each shape; `LANCER_RAYS` says how many rays for
-//! each of them, and `--nocapture` shows what was measured.
 
 mod case;
 mod cone;
@@ -21,18 +18,29 @@ mod subject;
 mod tally;
 mod torus;
 
+pub use subject::Kind;
+
 use case::Case;
 use fastrand::Rng;
 use judge::{Asked, judge};
-use subject::Kind;
 use tally::Tally;
 
-const CASES: u64 = 100;
+/// What is asked for.
+#[derive(Debug, Clone, Copy)]
+pub struct Settings {
+    /// Chooses other scenes and rays.
+    pub seed: u64,
+    /// How many rays, for all kinds of shapes together.
+    pub rays: u64,
+}
 
-fn check(kind: Kind) {
-    let rays = std::env::var("LANCER_RAYS").map_or(1000, |n| n.parse().expect("a whole number"));
+/// Asks rays of scenes of that kind.
+///
+/// # Panics
+/// Where something is wrong.
+pub fn check(kind: Kind, cases: u64, rays: u64) {
     let mut tally = Tally::default();
-    for number in 0..CASES {
+    for number in 0..cases {
         let case = Case::new(kind, number);
         for ray in 0..rays {
             // Its own seed for each ray, whatever the ones before it have used.
@@ -44,33 +52,4 @@ fn check(kind: Kind) {
     }
     print!("{kind:?}: ");
     tally.finish();
-}
-
-macro_rules! checks {
-    ($($name:ident: $kind:ident,)*) => {
-        $(#[test]
-        fn $name() {
-            check(Kind::$kind);
-        })*
-    };
-}
-
-checks! {
-    spheres: Sphere,
-    planes: Plane,
-    discs: Disc,
-    rectangles: Rectangle,
-    triangles: Triangle,
-    boxes: Cuboid,
-    cubes: Cube,
-    tetrahedra: Tetrahedron,
-    cylinders: Cylinder,
-    open_cylinders: OpenCylinder,
-    cones: Cone,
-    open_cones: OpenCone,
-    frustums: Frustum,
-    open_frustums: OpenFrustum,
-    tori: Torus,
-    closed_meshes: ClosedMesh,
-    open_meshes: OpenMesh,
 }

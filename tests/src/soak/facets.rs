@@ -1,9 +1,9 @@
 //! Meshes: every triangle is asked.
 
-use crate::dd::Dd;
-use crate::figure::{BAND, Crossing, Figure};
-use crate::sheets::Flat;
-use crate::space::{Line, Long};
+use super::dd::Dd;
+use super::figure::{BAND, Crossing, Figure};
+use super::sheets::Flat;
+use super::space::{Line, Long};
 use lancer_math::{Point, Vector};
 use std::collections::BTreeMap;
 

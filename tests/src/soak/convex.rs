@@ -1,10 +1,10 @@
 //! Convex bodies: what is within all of some surfaces. A line is within each on
 //! one stretch, and within the body on what all the stretches share.
 
-use crate::cone::{Side, Within};
-use crate::dd::Dd;
-use crate::figure::{BAND, Crossing, Figure, WAVER};
-use crate::space::{Line, Long};
+use super::cone::{Side, Within};
+use super::dd::Dd;
+use super::figure::{BAND, Crossing, Figure, WAVER};
+use super::space::{Line, Long};
 use lancer_math::Point;
 
 /// One of the surfaces.
