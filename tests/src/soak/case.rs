@@ -1,9 +1,9 @@
 //! Random scenes of one kind of shape.
 
 use super::figure::Crossing;
+use super::kind::Kind;
 use super::sample::{any_direction, between, power_of_ten};
 use super::space::{Frame, Line, Long};
-use super::kind::Kind;
 use super::subject::Subject;
 use fastrand::Rng;
 use lancer_kernel::Prepared;

@@ -17,8 +17,6 @@ const SCANNED: usize = 32;
 struct Way {
     width: Width,
     prepared: Prepared,
-    /// For batches with all shortcuts off.
-    plain: Prepared,
 }
 
 /// One thing by itself, and what its hits are called in the scene.
@@ -34,6 +32,8 @@ struct Alone {
 #[derive(Debug)]
 pub(crate) struct Paths {
     ways: Vec<Way>,
+    /// With all shortcuts off.
+    plain: Prepared,
     shapes: Vec<Alone>,
     triangles: Vec<Alone>,
 }
@@ -66,11 +66,7 @@ fn split(mesh: &Mesh) -> impl Iterator<Item = Mesh> {
 
 impl Paths {
     pub(crate) fn new(case: &Case) -> Self {
-        let way = |width| Way {
-            width,
-            prepared: prepare(&case.scene, width, Culling::ALL),
-            plain: prepare(&case.scene, width, Culling::NONE),
-        };
+        let way = |width| Way { width, prepared: prepare(&case.scene, width, Culling::ALL) };
         let ways = Width::available().into_iter().map(way).collect();
         let (mut shapes, mut triangles) = (Vec::new(), Vec::new());
         for item in 0..case.item_count() {
@@ -87,7 +83,8 @@ impl Paths {
                 }));
             }
         }
-        Self { ways, shapes, triangles }
+        let plain = prepare(&case.scene, Width::best(), Culling::NONE);
+        Self { ways, plain, shapes, triangles }
     }
 
     /// Asks all paths what these rays meet.
@@ -102,19 +99,28 @@ impl Paths {
             rays.iter().map(|ray| case.prepared.nearest(ray, f64::INFINITY)).collect();
         // So that for some of them what is met is too far.
         let t_max = hits.iter().flatten().map(|hit| 1.5 * hit.t).next().unwrap_or(1.0);
-        for way in &self.ways {
-            way.one_by_one(case, &rays, &hits, t_max, found);
-            for (prepared, name) in [(&way.prepared, "all"), (&way.plain, "no")] {
-                let which = format!("{} with {name} shortcuts", way.width.name());
-                in_batches(prepared, &which, &rays, &hits, t_max, found);
-            }
-            let work = InRegisters { prepared: &way.prepared, asked, hits: &hits };
+        let answers: Vec<_> = rays
+            .iter()
+            .zip(&hits)
+            .map(|(ray, hit)| Answers::of(&case.prepared, ray, hit))
+            .collect();
+        for (turn, way) in self.ways.iter().enumerate() {
+            way.one_by_one(&rays, &hits, &answers, t_max, found);
+            in_batches(&way.prepared, way.width.name(), &rays, &hits, t_max, found);
+            let work = InRegisters {
+                prepared: &way.prepared,
+                asked,
+                hits: &hits,
+                turn,
+                turns: self.ways.len(),
+            };
             let differ = dispatch(way.width, work);
             found.extend(differ.into_iter().map(|(ray, what)| {
                 let what = format!("in registers of {}, {what}", way.width.name());
                 Disagreement { ray, what }
             }));
         }
+        in_batches(&self.plain, "no shortcuts", &rays, &hits, t_max, found);
         for (i, (ray, hit)) in rays.iter().zip(&hits).enumerate() {
             by_scan(&self.shapes, i, ray, *hit, found);
             if i.is_multiple_of(SCANNED) && self.is_of_meshes() {
@@ -138,40 +144,43 @@ fn note(found: &mut Vec<Disagreement>, ray: usize, what: impl FnOnce() -> String
     }
 }
 
+/// What `all` and `expand` say of a ray.
+#[derive(Debug, PartialEq)]
+struct Answers {
+    all: Vec<Hit>,
+    point: Option<(Point, f64, [Vector; 2], [f64; 3], [u32; 2])>,
+}
+
+impl Answers {
+    fn of(prepared: &Prepared, ray: &Ray, hit: &Option<Hit>) -> Self {
+        let all = prepared.all(ray, (f64::NEG_INFINITY, f64::INFINITY), Which::All);
+        let point = hit.as_ref().map(|hit| {
+            let s = prepared.expand(ray, hit);
+            (s.point, s.error, [s.normal, s.shading], s.albedo, [s.shape, s.item])
+        });
+        Self { all, point }
+    }
+}
+
 impl Way {
     /// `nearest`, `any`, `all` and `expand`.
     fn one_by_one(
         &self,
-        case: &Case,
         rays: &[Ray],
         hits: &[Option<Hit>],
+        answers: &[Answers],
         t_max: f64,
         found: &mut Vec<Disagreement>,
     ) {
         let (prepared, name) = (&self.prepared, self.width.name());
-        let everything = (f64::NEG_INFINITY, f64::INFINITY);
-        for (i, (ray, hit)) in rays.iter().zip(hits).enumerate() {
+        for (i, ((ray, hit), expected)) in rays.iter().zip(hits).zip(answers).enumerate() {
             let nearest = prepared.nearest(ray, f64::INFINITY);
             note(found, i, || format!("{name}: {nearest:?}, not {hit:?}"), nearest == *hit);
-            let within = hit.filter(|hit| hit.t < t_max);
-            let nearest = prepared.nearest(ray, t_max);
-            let what = || format!("{name} up to {t_max:e}: {nearest:?}, not {within:?}");
-            note(found, i, what, nearest == within);
-            for t_max in [t_max, f64::INFINITY] {
-                let any = prepared.any(ray, t_max, Which::All);
-                let expected = hit.is_some_and(|hit| hit.t < t_max);
-                note(found, i, || format!("{name}: any up to {t_max:e}: {any}"), any == expected);
-            }
-            let all = prepared.all(ray, everything, Which::All);
-            let expected = case.prepared.all(ray, everything, Which::All);
-            note(found, i, || format!("{name}: {all:?}, not {expected:?}"), all == expected);
-            if let Some(hit) = hit {
-                let [own, other] = [prepared, &case.prepared].map(|p| {
-                    let s = p.expand(ray, hit);
-                    (s.point, s.error, s.normal, s.shading, s.albedo, s.shape, s.item)
-                });
-                note(found, i, || format!("{name}: {own:?}, not {other:?}"), own == other);
-            }
+            let any = prepared.any(ray, t_max, Which::All);
+            let same = any == hit.is_some_and(|hit| hit.t < t_max);
+            note(found, i, || format!("{name}: any up to {t_max:e}: {any}"), same);
+            let own = Answers::of(prepared, ray, hit);
+            note(found, i, || format!("{name}: {own:?}, not {expected:?}"), own == *expected);
         }
     }
 }
@@ -220,6 +229,10 @@ struct InRegisters<'a> {
     prepared: &'a Prepared,
     asked: &'a [Asking],
     hits: &'a [Option<Hit>],
+    /// Of so many rays this one is asked by itself, too; the others are with other
+    /// numbers of lanes.
+    turn: usize,
+    turns: usize,
 }
 
 impl Work for InRegisters<'_> {
@@ -255,7 +268,9 @@ impl Work for InRegisters<'_> {
                 if (any.bits() >> k & 1 != 0) != hit.is_some() {
                     differ.push((i, format!("any is not {}", hit.is_some())));
                 }
-                self.alone(lanes, i, asked, &mut differ);
+                if i % self.turns == self.turn {
+                    self.alone(lanes, i, asked, &mut differ);
+                }
             }
         }
         differ
