@@ -1,6 +1,6 @@
 //! A short soak of each kind of shape; `cargo xtask stability` asks for longer ones.
 
-use lancer_tests::soak::{Kind, soak};
+use lancer_tests::soak::{Kind, closed, leaks, soak};
 
 macro_rules! checks {
     ($($name:ident: $kind:ident,)*) => {
@@ -37,4 +37,12 @@ checks! {
     closed_meshes: ClosedMesh,
     open_meshes: OpenMesh,
     mixed_shapes: Mixed,
+}
+
+#[test]
+fn closed_meshes_do_not_leak() {
+    for mesh in [closed::ball(9), closed::block(5), closed::ring(40)] {
+        let seen = leaks(&mesh, 0, 200_000);
+        assert_eq!((seen.leaks, seen.disagreements), (0, 0), "{}", seen.told.join("\n"));
+    }
 }

@@ -103,6 +103,11 @@ pub(crate) fn is_close(entries: &[Entry]) -> bool {
     entries.iter().any(|e| e.crossing.margin < NEAR)
 }
 
+/// Whether something may be met or not.
+pub(crate) fn is_doubtful(entries: &[Entry]) -> bool {
+    entries.iter().any(Entry::is_doubtful)
+}
+
 /// A ray, and what it was made to start off from.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Asked {
@@ -182,9 +187,11 @@ pub(crate) fn judge(
             let off = (e.off(hit.t) - e.crossing.slack).max(0.0);
             let ulps = off * e.line.length / (e.reach() * f64::EPSILON);
             let of_bound = off / (e.tolerance(case) - e.crossing.slack);
-            tally.distance(if e.cosine >= STEEP { ulps } else { 0.0 }, of_bound);
+            tally.distance(if e.cosine >= 0.1 { ulps } else { 0.0 }, of_bound);
         }
         let part = contact(case, ray, &hit, &found, tally).filter(|_| asked.left.is_none());
+        // Every other time.
+        let part = part.filter(|_| rng.bool());
         next = part.and_then(|part| leave(case, ray, &hit, (found[0], part), rng, tally));
     }
     all(case, asked, entries, Some(hit), tally);
@@ -211,7 +218,10 @@ fn all(case: &Case, asked: &Asked, entries: &[Entry], hit: Option<Hit>, tally: &
         let own = entries.iter().filter(|e| e.item == hit.item && e.is_found_at(case, hit.t));
         let later = own.map(|e| e.tolerance(case)).fold(0.0, f64::max);
         let (nearer, there) = (any(hit.t), any((hit.t + later).next_up()));
-        if nearer || !there {
+        if !nearer && !there && is_doubtful(entries) {
+            // Beside a sharp corner it may be found a little outside of its box.
+            tally.boxed();
+        } else if nearer || !there {
             let what = format!("nearest is {hit:?}; `any` up to it: {nearer}, with it: {there}");
             tally.complain(case, ray, Wrong::Disagreement, what);
         }

@@ -8,6 +8,7 @@
 
 mod case;
 mod class;
+pub mod closed;
 mod cone;
 mod convex;
 mod dd;
@@ -16,6 +17,7 @@ mod figure;
 mod id;
 mod judge;
 mod kind;
+mod leaks;
 mod mesh;
 mod oracle;
 mod paths;
@@ -31,5 +33,6 @@ mod torus;
 
 pub use id::{Id, NotAnId};
 pub use kind::Kind;
+pub use leaks::{Leaks, leaks};
 pub use report::{Report, band_in_ulps};
 pub use run::{replay, soak};

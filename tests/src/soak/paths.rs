@@ -42,6 +42,8 @@ pub(crate) struct Paths {
 #[derive(Debug)]
 pub(crate) struct Disagreement {
     pub(crate) ray: usize,
+    /// With what shapes have alone, in boxes of their own.
+    pub(crate) is_of_scan: bool,
     pub(crate) what: String,
 }
 
@@ -117,7 +119,7 @@ impl Paths {
             let differ = dispatch(way.width, work);
             found.extend(differ.into_iter().map(|(ray, what)| {
                 let what = format!("in registers of {}, {what}", way.width.name());
-                Disagreement { ray, what }
+                Disagreement { ray, is_of_scan: false, what }
             }));
         }
         in_batches(&self.plain, "no shortcuts", &rays, &hits, t_max, found);
@@ -140,7 +142,7 @@ impl Paths {
 
 fn note(found: &mut Vec<Disagreement>, ray: usize, what: impl FnOnce() -> String, same: bool) {
     if !same {
-        found.push(Disagreement { ray, what: what() });
+        found.push(Disagreement { ray, is_of_scan: false, what: what() });
     }
 }
 
@@ -220,7 +222,10 @@ fn by_scan(shapes: &[Alone], i: usize, ray: &Ray, hit: Option<Hit>, found: &mut 
             |met: &Hit| nearest.is_none_or(|n| (met.t, met.item, met.part) < (n.t, n.item, n.part));
         nearest = met.filter(is_nearer).or(nearest);
     }
-    note(found, i, || format!("shape by shape: {nearest:?}, not {hit:?}"), nearest == hit);
+    if nearest != hit {
+        let what = format!("shape by shape: {nearest:?}, not {hit:?}");
+        found.push(Disagreement { ray: i, is_of_scan: true, what });
+    }
 }
 
 /// `nearest_in_lanes` and its like, for rays side by side and for each alone with what

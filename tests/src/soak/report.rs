@@ -7,8 +7,8 @@ use super::tally::{Count, Tally};
 use std::fmt::Write;
 
 /// Points are known better than this, as a share of the size of the scene seen
-/// from a ray.
-const COARSEST: f64 = 1e-11;
+/// from a ray: less so in groups that are stretched.
+const COARSEST: f64 = 1e-9;
 
 /// Of rays that were not made to be difficult, fewer may be answered in two ways.
 const EASY_IN_BAND: f64 = 1e-3;
@@ -75,6 +75,7 @@ impl Report {
             "self-hits",
             "other",
             "disagreements",
+            "by boxes",
             "judged by the oracle",
             "overruled",
             "distance (ulp)",
@@ -119,6 +120,7 @@ fn row(name: &str, c: &Count) -> String {
         c.self_hits,
         c.other,
         c.disagreements,
+        c.boxed,
         c.judged,
         c.overruled,
     ];

@@ -135,6 +135,15 @@ impl Figure for Tube {
                 found.push(Crossing::new(t, 0, false, misses));
             }
         }
+        // One that runs along it, so near that it may be on either side of it, crosses it
+        // anywhere or nowhere.
+        let beside = line.nearest_to(side.middle());
+        let point = line.at(beside);
+        let off = side.distance(point).round().abs() / line.scale;
+        let turning = line.cosine(side.normal(point)) * side.height().round() / line.scale;
+        if off < NEAR && turning < NEAR {
+            found.push(Crossing::new(beside, 0, false, off.max(turning)));
+        }
     }
 
     fn side(&self, _: usize, point: Long) -> Dd {

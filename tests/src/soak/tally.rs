@@ -22,9 +22,11 @@ pub(crate) struct Count {
     /// Points, normals, inconsistent answers.
     pub(crate) other: u64,
     pub(crate) disagreements: u64,
+    /// Found in one hierarchy of boxes and not in another: only in the band.
+    pub(crate) boxed: u64,
     pub(crate) judged: u64,
     pub(crate) overruled: u64,
-    /// The largest error of the distance where |cos| is at least 1e-3, in units in the
+    /// The largest error of the distance where |cos| is at least 0.1, in units in the
     /// last place of the lengths along the ray.
     pub(crate) ulps: f64,
     /// The largest error of any distance, in units of its bound.
@@ -89,6 +91,7 @@ impl Count {
             (&mut self.self_hits, other.self_hits),
             (&mut self.other, other.other),
             (&mut self.disagreements, other.disagreements),
+            (&mut self.boxed, other.boxed),
             (&mut self.judged, other.judged),
             (&mut self.overruled, other.overruled),
         ] {
@@ -158,6 +161,11 @@ impl Tally {
     /// The ray may be answered in two ways.
     pub(crate) fn in_band(&mut self) {
         self.count().in_band += 1;
+    }
+
+    /// It was found or not, as the boxes were that its shapes stood in.
+    pub(crate) fn boxed(&mut self) {
+        self.count().boxed += 1;
     }
 
     /// It was held against the oracle.

@@ -1,6 +1,7 @@
 //! `cargo xtask stability`: asks many rays and compares the answers with what is
 //! exactly so.
 
+mod leaks;
 mod page;
 mod soak;
 
@@ -15,8 +16,8 @@ pub(crate) struct StabilityArgs {
     #[arg(long, value_name = "N")]
     rays: Option<u64>,
 
-    /// Send so many rays from inside at each of some closed meshes; LANCER_MESHES adds those of
-    /// a folder
+    /// Send so many rays from inside at closed meshes: some that are made, and spot.obj if
+    /// LANCER_MESHES names its folder
     #[arg(long, value_name = "N")]
     leaks: Option<u64>,
 
@@ -54,6 +55,13 @@ pub(crate) fn run(args: &StabilityArgs) -> Result<(), Failure> {
         is_good &= fine;
         if args.write {
             page::write("soak", &section)?;
+        }
+    }
+    if let Some(rays) = args.leaks {
+        let (section, fine) = leaks::run(args, rays)?;
+        is_good &= fine;
+        if args.write {
+            page::write("leaks", &section)?;
         }
     }
     if is_good { Ok(()) } else { Err(fail("not all is as it should be")) }
