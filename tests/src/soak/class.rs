@@ -37,16 +37,24 @@ pub(crate) enum Class {
     Leaving,
 }
 
-/// The classes of rays that are made: ordinary ones are a third.
-const MADE: [Class; 18] = [
+/// The classes of rays that are made, each as often as it stands here.
+const MADE: [Class; 24] = [
+    Class::Ordinary,
+    Class::Ordinary,
+    Class::Ordinary,
+    Class::Ordinary,
     Class::Ordinary,
     Class::Ordinary,
     Class::Ordinary,
     Class::Ordinary,
     Class::Inside,
     Class::Inside,
+    Class::Inside,
     Class::Far,
     Class::Far,
+    Class::Far,
+    Class::Near,
+    Class::Near,
     Class::Axis,
     Class::InFace,
     Class::Silhouette,
@@ -55,8 +63,6 @@ const MADE: [Class; 18] = [
     Class::Edge,
     Class::Corner,
     Class::Cell,
-    Class::Near,
-    Class::Near,
 ];
 
 impl Class {

@@ -324,3 +324,42 @@ fn leave(
     let left = Left { item: hit.item, part, by: 2.0 * surface.error, goes_out };
     Some(Asked { ray: out, left: Some(left) })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::soak::class::Class;
+    use crate::soak::id::Id;
+    use crate::soak::kind::Kind;
+
+    /// Right answers pass; of each that is wrong it is said in which way.
+    #[test]
+    fn wrong_answers_are_seen() {
+        for kind in [Kind::Sphere, Kind::Cuboid, Kind::Torus, Kind::ClosedMesh] {
+            let id = Id { kind, seed: 1, case: 0, ray: 0, is_left: false };
+            let case = Case::new(kind, id.case_seed(), 0);
+            let judged = |ray: &Ray, hit: Option<Hit>| {
+                let mut tally = Tally::default();
+                tally.begin(id, Class::Ordinary, hit.is_some());
+                let rng = &mut Rng::with_seed(1);
+                let asked = Asked { ray: *ray, left: None };
+                judge(&case, &asked, (hit, &case.crossings(ray)), rng, &mut tally);
+                tally.total()
+            };
+            let mut seen = 0;
+            for seed in 0..100 {
+                // The first class of rays is the ordinary one.
+                let (ray, _) = case.ray(&mut Rng::with_seed(seed), 0);
+                let hit = case.prepared.nearest(&ray, f64::INFINITY);
+                assert_eq!(judged(&ray, hit).failures(), 0, "{kind:?} {seed}");
+                let Some(hit) = hit else { continue };
+                seen += 1;
+                assert_eq!(judged(&ray, None).misses, 1, "{kind:?} {seed}");
+                let at = |t| Some(Hit { t, ..hit });
+                assert_eq!(judged(&ray, at(hit.t * (1.0 - 1e-9))).false_hits, 1, "{kind:?} {seed}");
+                assert_eq!(judged(&ray, at(hit.t * (1.0 + 1e-9))).misses, 1, "{kind:?} {seed}");
+            }
+            assert!(seen > 20, "{kind:?} {seen}");
+        }
+    }
+}

@@ -13,10 +13,10 @@ use std::fmt::Write;
 use std::sync::Arc;
 
 /// So many rays begin at each point inside.
-const RAYS: u64 = 512;
+const RAYS: u64 = 4096;
 
 /// So many points are inside of each copy of a mesh: copies are turned and moved.
-const POINTS: u64 = 128;
+const POINTS: u64 = 16;
 
 /// What was seen of one mesh.
 #[derive(Debug, Default, Clone)]

@@ -12,39 +12,57 @@ use std::sync::Arc;
 const BITS: usize = 160;
 
 /// A decision by less than this, as a share of the size of the scene seen from a ray,
-/// cannot always be had in double-double numbers: it is a thousandth of the band.
-const UNDECIDED: f64 = 1e-17;
+/// cannot always be had in double-double numbers: it is a thirtieth of the band.
+const UNDECIDED: f64 = 1e-15;
 
 /// Distances from the surface agree to this, as a share of that size: a thousandth of
 /// a rounding of the kernel's.
 const AGREES: f64 = 1e-19;
 
-/// Where the oracle sees the ray cross other things than these: what is wrong.
-pub(crate) fn contradiction(case: &Case, ray: &Ray, entries: &[Entry]) -> Option<String> {
-    (0..case.item_count()).find_map(|item| {
-        let own: Vec<&Entry> = entries.iter().filter(|e| e.item == item).collect();
-        let found = exactly(case, item, ray);
-        differ(&own, &found).map(|what| format!("item {item}, says the oracle: {what}"))
-    })
+/// Where the shapes of a scene stand, exactly.
+#[derive(Debug)]
+pub(crate) struct Oracle {
+    spaces: Vec<Space>,
+}
+
+impl Oracle {
+    pub(crate) fn new(case: &Case) -> Self {
+        let space = |item| Space::world().inside(case.placement(item));
+        Self { spaces: (0..case.item_count()).map(space).collect() }
+    }
+
+    /// Where it sees the ray cross other things than these: what is wrong.
+    pub(crate) fn contradiction(
+        &self,
+        case: &Case,
+        ray: &Ray,
+        entries: &[Entry],
+    ) -> Option<String> {
+        let line = Line::from(ray);
+        (0..).zip(&self.spaces).find_map(|(item, space)| {
+            let own: Vec<&Entry> = entries.iter().filter(|e| e.item == item).collect();
+            let found = exactly(case, item, space, &line, ray);
+            differ(&own, &found).map(|what| format!("item {item}, says the oracle: {what}"))
+        })
+    }
 }
 
 /// The crossings of an item where that changes sides.
-fn exactly(case: &Case, item: u32, ray: &Ray) -> Vec<Crossing> {
-    let space = Space::world().inside(case.placement(item));
-    let local = case.placement(item);
+fn exactly(case: &Case, item: u32, space: &Space, line: &Line, ray: &Ray) -> Vec<Crossing> {
     let geometry = &case.subject(item).shape.geometry;
-    let line = Line::from(ray);
-    let near = match geometry {
+    let found = match geometry {
         Geometry::Mesh(mesh) => {
-            let own = Ray::new(local.local_point(&ray.origin), local.local_vector(&ray.direction));
+            let placement = case.placement(item);
+            let direction = placement.local_vector(&ray.direction);
+            let own = Ray::new(placement.local_point(&ray.origin), direction);
             let Some(part) = near_triangles(mesh, &own) else { return Vec::new() };
-            Geometry::Mesh(Arc::new(part))
+            crossings(&Geometry::Mesh(Arc::new(part)), space, line, BITS)
         }
-        other => other.clone(),
+        other => crossings(other, space, line, BITS),
     };
-    let mut found = crossings(&near, &space, &line, BITS).list;
-    found.retain(|crossing| crossing.passage != Passage::Touches);
-    found
+    let mut list = found.list;
+    list.retain(|crossing| crossing.passage != Passage::Touches);
+    list
 }
 
 /// The triangles of a mesh that a line may come near to: all of them would take

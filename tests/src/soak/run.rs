@@ -6,7 +6,7 @@ use super::class::Class;
 use super::id::{Id, mix};
 use super::judge::{Asked, is_close, is_doubtful, judge};
 use super::kind::Kind;
-use super::oracle::contradiction;
+use super::oracle::Oracle;
 use super::paths::{Asking, Paths};
 use super::report::Report;
 use super::tally::{Failure, Tally, Wrong, describe};
@@ -58,6 +58,7 @@ struct Run {
     id: Id,
     case: Case,
     paths: Paths,
+    oracle: Oracle,
     tally: Tally,
     /// What is to be told of the ray of `id`.
     story: Option<String>,
@@ -74,8 +75,8 @@ struct Flight {
 impl Run {
     fn new(id: Id) -> Self {
         let case = Case::new(id.kind, id.case_seed(), id.case);
-        let paths = Paths::new(&case);
-        Self { id, case, paths, tally: Tally::default(), story: None }
+        let (paths, oracle) = (Paths::new(&case), Oracle::new(&case));
+        Self { id, case, paths, oracle, tally: Tally::default(), story: None }
     }
 
     fn all(&mut self, count: u64) -> Tally {
@@ -121,7 +122,7 @@ impl Run {
             let failed = tally.failures() > before;
             if failed || is_close(&entries) || mix(flight.id.ray_seed()) % SEEDED == 0 {
                 tally.judged();
-                if let Some(what) = contradiction(case, &ray, &entries) {
+                if let Some(what) = self.oracle.contradiction(case, &ray, &entries) {
                     tally.complain(case, &ray, Wrong::Overruled, what);
                 }
             }

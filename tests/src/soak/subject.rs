@@ -276,8 +276,13 @@ fn cone(kind: Kind, rng: &mut Rng) -> Subject {
         return subject(shape, Tube(side), (patches, curves), ball);
     }
     let mut faces = vec![Face::Round(side)];
-    for (centre, out, radius) in rims.filter(|(_, _, radius)| *radius > 0.0) {
-        faces.push(Face::plane(Long::from(centre), Long::from(out)));
+    // Its axis to all digits: the difference of the ends is not always a double.
+    let up = Long::from(top) - Long::from(base);
+    for ((centre, out, radius), normal) in rims.zip([-up, up]) {
+        if radius == 0.0 {
+            continue;
+        }
+        faces.push(Face::plane(Long::from(centre), normal));
         patches.push(Patch::Disc(centre, out, radius));
     }
     subject(shape, Convex::new(faces, ball), (patches, curves), ball)
