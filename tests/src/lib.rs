@@ -9,3 +9,4 @@ pub mod paths;
 pub mod plain;
 pub mod random;
 pub mod room;
+pub mod soak;

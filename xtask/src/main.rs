@@ -5,6 +5,7 @@ mod bench;
 mod docs;
 mod gallery;
 mod goldens;
+mod stability;
 mod tidy;
 
 use clap::{Parser, Subcommand};
@@ -35,6 +36,8 @@ enum Command {
     Tidy,
     /// Measure how fast this is (build with --release), or count instructions
     Bench(bench::BenchArgs),
+    /// Ask many rays and compare with what is exactly so (build with --release)
+    Stability(stability::StabilityArgs),
 }
 
 /// Why a chore was not done.
@@ -54,6 +57,7 @@ fn main() -> ExitCode {
         }
         Command::Tidy => tidy::run(),
         Command::Bench(args) => bench::run(&args),
+        Command::Stability(args) => stability::run(&args),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

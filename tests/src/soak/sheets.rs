@@ -1,9 +1,9 @@
 //! Surfaces with edges: pieces of planes, and sides of cones without lids.
 
-use crate::cone::{Side, Within};
-use crate::dd::Dd;
-use crate::figure::{BAND, Crossing, Figure};
-use crate::space::{Line, Long};
+use super::cone::{Side, Within};
+use super::dd::Dd;
+use super::figure::{Crossing, Figure, NEAR};
+use super::space::{Line, Long};
 
 /// How far a plane reaches.
 #[derive(Debug)]
@@ -62,7 +62,7 @@ impl Figure for Flat {
             if matches!(self.outline, Outline::Endless) {
                 // It may meet the plane very far away.
                 found.push(Crossing::new(Dd::INFINITY, 0, false, 0.0));
-            } else if off < BAND {
+            } else if off < NEAR {
                 let t = line.nearest_to(self.point);
                 found.push(Crossing::new(t, 0, false, off));
             }
@@ -74,7 +74,7 @@ impl Figure for Flat {
             Outline::Endless => cosine,
             _ => beyond.abs() * cosine / line.scale,
         };
-        if beyond <= 0.0 || margin < BAND {
+        if beyond <= 0.0 || margin < NEAR {
             found.push(Crossing::new(t, 0, beyond <= 0.0, margin));
         }
     }
@@ -131,9 +131,18 @@ impl Figure for Tube {
             let misses = if crosses { to_edge } else { depth } / line.scale;
             if is_there {
                 found.push(Crossing::new(t, 0, true, margin));
-            } else if misses < BAND {
+            } else if misses < NEAR {
                 found.push(Crossing::new(t, 0, false, misses));
             }
+        }
+        // One that runs along it, so near that it may be on either side of it, crosses it
+        // anywhere or nowhere.
+        let beside = line.nearest_to(side.middle());
+        let point = line.at(beside);
+        let off = side.distance(point).round().abs() / line.scale;
+        let turning = line.cosine(side.normal(point)) * side.height().round() / line.scale;
+        if off < NEAR && turning < NEAR {
+            found.push(Crossing::new(beside, 0, false, off.max(turning)));
         }
     }
 

@@ -1,10 +1,10 @@
 //! The ring: zeros of its implicit function, a quartic along a line, and its
 //! exact distance.
 
-use crate::dd::Dd;
-use crate::figure::{Crossing, Figure};
-use crate::quartic::{turning_points, zero_between};
-use crate::space::{Line, Long};
+use super::dd::Dd;
+use super::figure::{Crossing, Figure};
+use super::quartic::{turning_points, zero_between};
+use super::space::{Line, Long};
 
 #[derive(Debug)]
 pub(crate) struct Ring {
@@ -71,7 +71,7 @@ impl Figure for Ring {
             let margin = clearances[i].min(clearances[i + 1]);
             if let Some(x) = zero_between(&quartic, (points[i], points[i + 1])) {
                 found.push(Crossing::new(place(x), 0, true, margin));
-            } else if clearances[i] < crate::figure::BAND {
+            } else if clearances[i] < super::figure::NEAR {
                 found.push(Crossing::new(place(points[i]), 0, false, clearances[i]));
             }
         }

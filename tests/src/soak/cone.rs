@@ -1,9 +1,9 @@
 //! The curved side of cylinders, cones and frustums: the points whose distance
 //! from the axis is a linear function of where they are along it.
 
-use crate::dd::Dd;
-use crate::figure::WAVER;
-use crate::space::{Line, Long};
+use super::dd::Dd;
+use super::figure::WAVER;
+use super::space::{Line, Long};
 
 #[derive(Debug)]
 pub(crate) struct Side {
@@ -79,6 +79,29 @@ impl Side {
 
     /// Where radial^2 - radius^2 is not positive and the radius is not negative.
     pub(crate) fn within(&self, line: &Line) -> Within {
+        match self.roots(line) {
+            Within::Between(from, to) => {
+                Within::Between(self.polished(line, from), self.polished(line, to))
+            }
+            never @ Within::Never(_) => never,
+        }
+    }
+
+    /// Closer to the side, by two steps of Newton's method for the distance: the quadratic
+    /// of a flat cone has lost digits that this still has.
+    fn polished(&self, line: &Line, t: Dd) -> Dd {
+        let step = |t: Dd| {
+            let point = line.at(t);
+            let speed = self.normal(point).dot(line.direction);
+            let next = t - self.distance(point) / speed;
+            // Where it turns, or in the tip, it may lead anywhere.
+            let by = (next - t).abs().round() * line.length;
+            if by <= 1e-12 * line.scale { next } else { t }
+        };
+        if t.is_finite() { step(step(t)) } else { t }
+    }
+
+    fn roots(&self, line: &Line) -> Within {
         let from = line.origin - self.base;
         let axial = from.dot(self.axis) / self.axis_squared;
         let axial_speed = line.direction.dot(self.axis) / self.axis_squared;

@@ -1,7 +1,7 @@
 //! Zeros of polynomials by bisection between their turning points, which are
 //! zeros of a polynomial of a lower degree.
 
-use crate::dd::Dd;
+use super::dd::Dd;
 
 /// The value and the slope of the polynomial with these coefficients, constant
 /// first.

@@ -1,8 +1,8 @@
 //! Random meshes: lumpy balls, boxes in small pieces, and hilly sheets.
 
-use crate::facets::Facets;
-use crate::sample::{Curve, Patch, Sample, any_direction, between, power_of_ten};
-use crate::subject::Subject;
+use super::facets::Facets;
+use super::sample::{Curve, Patch, any_direction, between, power_of_ten};
+use super::subject::Subject;
 use fastrand::Rng;
 use lancer_math::{Point, Vector, unit};
 use lancer_scene::{Mesh, Shape, Surface};
@@ -12,8 +12,8 @@ use std::sync::Arc;
 /// Positions, and triples of their indices.
 #[derive(Debug, Default)]
 pub(crate) struct Soup {
-    positions: Vec<[f64; 3]>,
-    triangles: Vec<[u32; 3]>,
+    pub(crate) positions: Vec<[f64; 3]>,
+    pub(crate) triangles: Vec<[u32; 3]>,
 }
 
 /// Vertices by where they are on a lattice, so that neighbours share them.
@@ -44,7 +44,7 @@ impl Lattice {
 }
 
 /// The sides of an octahedron, cut into n^2 triangles each.
-fn octahedron(n: i32) -> Soup {
+pub(crate) fn octahedron(n: i32) -> Soup {
     let mut lattice = Lattice::default();
     for octant in 0..8 {
         let signs = [0, 1, 2].map(|axis| if octant >> axis & 1 == 0 { 1 } else { -1 });
@@ -66,7 +66,7 @@ fn octahedron(n: i32) -> Soup {
 }
 
 /// The sides of a cube, cut into n^2 squares each.
-fn cube(rng: &mut Rng, n: i32) -> Soup {
+pub(crate) fn cube(rng: &mut Rng, n: i32) -> Soup {
     let mut lattice = Lattice::default();
     for (axis, level) in [(0, 0), (0, n), (1, 0), (1, n), (2, 0), (2, n)] {
         let at = |u: i32, v: i32| {
@@ -146,10 +146,12 @@ impl Soup {
         assert_eq!(mesh.dropped(), 0, "figure and mesh have other triangles");
         let (min, max) = mesh.bounds();
         let centre = min + (max - min) * 0.5;
-        Subject {
-            shape: Shape::mesh(Arc::new(mesh), surface).expect("a surface"),
-            figure: Box::new(figure),
-            sample: Sample { patches, curves, centre, size: (max - min).norm() * 0.5 },
-        }
+        let shape = Shape::mesh(Arc::new(mesh), surface);
+        super::subject::subject(
+            shape,
+            figure,
+            (patches, curves),
+            (centre, (max - min).norm() * 0.5),
+        )
     }
 }

@@ -1,6 +1,6 @@
 //! Vectors of long numbers, and where a group of shapes stands.
 
-use crate::dd::Dd;
+use super::dd::Dd;
 use lancer_math::{Placement, Point, Ray, Vector};
 use std::ops::{Add, Neg, Sub};
 

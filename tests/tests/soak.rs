@@ -1,0 +1,57 @@
+//! A short soak of each kind of shape; `cargo xtask stability` asks for longer ones.
+
+use lancer_tests::soak::{Kind, closed, leaks, soak};
+
+macro_rules! checks {
+    ($($name:ident: $kind:ident,)*) => {
+        $(#[test]
+        fn $name() {
+            let problems = soak(Kind::$kind, 0, 10_000).problems();
+            assert!(problems.is_empty(), "{}", problems.join("\n\n"));
+        })*
+
+        #[test]
+        fn no_kind_is_left_out() {
+            let names: Vec<_> = Kind::all().map(Kind::name).collect();
+            assert_eq!([$(Kind::$kind.name()),*], names[..]);
+        }
+    };
+}
+
+checks! {
+    spheres: Sphere,
+    planes: Plane,
+    discs: Disc,
+    rectangles: Rectangle,
+    triangles: Triangle,
+    boxes: Cuboid,
+    cubes: Cube,
+    tetrahedra: Tetrahedron,
+    cylinders: Cylinder,
+    open_cylinders: OpenCylinder,
+    cones: Cone,
+    open_cones: OpenCone,
+    frustums: Frustum,
+    open_frustums: OpenFrustum,
+    tori: Torus,
+    closed_meshes: ClosedMesh,
+    open_meshes: OpenMesh,
+    mixed_shapes: Mixed,
+}
+
+#[test]
+fn closed_meshes_do_not_leak() {
+    for mesh in [closed::ball(9), closed::block(5), closed::ring(40)] {
+        let seen = leaks(&mesh, 0, 65_536);
+        assert_eq!((seen.leaks, seen.disagreements), (0, 0), "{}", seen.told.join("\n"));
+    }
+}
+
+#[test]
+fn what_is_found_does_not_depend_on_threads() {
+    let found = [1, 3].map(|threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        pool.install(|| soak(Kind::Mixed, 5, 2000).rows(true))
+    });
+    assert_eq!(found[0], found[1]);
+}

@@ -1,0 +1,68 @@
+//! `cargo xtask stability`: asks many rays and compares the answers with what is
+//! exactly so.
+
+mod leaks;
+mod page;
+mod soak;
+
+use crate::{Failure, fail};
+use clap::Args;
+
+/// What to ask.
+#[derive(Debug, Args)]
+pub(crate) struct StabilityArgs {
+    /// Ask so many rays, ordinary ones and such as are made to be difficult, of all kinds of
+    /// shapes, by every path through the kernel, and compare with longer numbers
+    #[arg(long, value_name = "N")]
+    rays: Option<u64>,
+
+    /// Send so many rays from inside at closed meshes: some that are made, and spot.obj if
+    /// LANCER_MESHES names its folder
+    #[arg(long, value_name = "N")]
+    leaks: Option<u64>,
+
+    /// Another seed gives other scenes and rays
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+
+    /// Only shapes of this kind
+    #[arg(long, value_name = "KIND")]
+    shape: Option<String>,
+
+    /// Ask one ray again, by the id that its failure was printed with, and tell all about it
+    #[arg(long, value_name = "ID", conflicts_with_all = ["rays", "leaks", "write"])]
+    replay: Option<String>,
+
+    /// Print a line for each class of rays of each kind, too
+    #[arg(long, requires = "rays")]
+    classes: bool,
+
+    /// Put the tables into docs/stability.md, in place of those of the same parts
+    #[arg(long)]
+    write: bool,
+}
+
+pub(crate) fn run(args: &StabilityArgs) -> Result<(), Failure> {
+    if let Some(id) = &args.replay {
+        return soak::again(id);
+    }
+    if args.rays.is_none() && args.leaks.is_none() {
+        return Err(fail("nothing is asked for: --rays N, --leaks N or --replay ID"));
+    }
+    let mut is_good = true;
+    if let Some(rays) = args.rays {
+        let (section, fine) = soak::run(args, rays)?;
+        is_good &= fine;
+        if args.write {
+            page::write("soak", &section)?;
+        }
+    }
+    if let Some(rays) = args.leaks {
+        let (section, fine) = leaks::run(args, rays)?;
+        is_good &= fine;
+        if args.write {
+            page::write("leaks", &section)?;
+        }
+    }
+    if is_good { Ok(()) } else { Err(fail("not all is as it should be")) }
+}
