@@ -3,4 +3,7 @@
 //! from exact arithmetic or from a symmetry. Names begin with the group and the
 //! number of the failure.
 
+mod asked;
 mod deferred;
+mod ray_plane;
+mod ray_sphere;
