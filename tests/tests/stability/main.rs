@@ -5,5 +5,7 @@
 
 mod asked;
 mod deferred;
+mod picture;
 mod ray_plane;
 mod ray_sphere;
+mod round;

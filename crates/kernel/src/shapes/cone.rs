@@ -23,8 +23,8 @@
 //! Degenerate cases: along the axis of a cylinder the barrel is everywhere or
 //! nowhere; parallel to a line of a cone's side (a = 0), and steeper (a < 0), it is
 //! a half-line; a ray in a line of the side is none. At the apex the normal is
-//! along the axis. A ray through the apex alone touches: its two crossings are
-//! one.
+//! that of the side which the ray comes towards, so that it is as bright as what is
+//! around it. A ray through the apex alone touches: its two crossings are one.
 
 use super::exact::difference_of_products;
 use super::frame::{Frame, across};
@@ -237,13 +237,18 @@ impl Primitive for Barrel {
         let at = stepped(&ray.origin, &self.narrow, crossing.t, &ray.direction);
         let (z, across) = self.split(&at);
         let distance = across.norm();
-        let outward = across / distance;
         let apart = distance > 0.0;
+        let outward = if apart {
+            across / distance
+        } else {
+            let (_, sideward) = self.split(&ray.direction);
+            unit(-sideward).unwrap_or(self.frame.first)
+        };
         let (z, radius, normal) = if crossing.part == SIDE {
             let z = z.clamp(0.0, self.length);
             let radius = self.radii[0] + self.slope * z;
             // The slope's own length may be beyond a double; unit() has none of that.
-            let normal = if apart { unit(outward - self.axis * self.slope) } else { None };
+            let normal = unit(outward - self.axis * self.slope);
             (z, radius, normal.unwrap_or(-self.axis))
         } else if crossing.part == self.lids[0] {
             (0.0, distance.min(self.radii[0]), -self.axis)
