@@ -36,7 +36,12 @@ impl Asked {
 
     /// With the widest lanes.
     pub(crate) fn prepared(&self) -> &Prepared {
-        &self.by_width.iter().find(|(width, _)| width.name() == Width::best().name()).expect("there").1
+        &self
+            .by_width
+            .iter()
+            .find(|(width, _)| width.name() == Width::best().name())
+            .expect("there")
+            .1
     }
 
     /// The nearest hit of each ray with 0 < t < `t_max`: the same from each way to

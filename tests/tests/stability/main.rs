@@ -5,7 +5,15 @@
 
 mod asked;
 mod deferred;
+mod directions;
+mod doubtful;
+mod hierarchy;
+mod leaving;
+mod original_shapes;
 mod picture;
+mod ray_box;
 mod ray_plane;
 mod ray_sphere;
 mod round;
+mod torus;
+mod triangle;
