@@ -408,7 +408,13 @@ mod tests {
             }
             let at = Crossing { t: 0.0, part: SIDE };
             let contact = shape.contact(&ray([0.0; 3], [0.0, 0.0, 1.0]), &at);
-            assert_eq!((contact.point, contact.normal), (Point::origin(), -Vector::z()));
+            let (outward, axis) = (shape.frame.first, Vector::z());
+            assert_eq!(contact.point, Point::origin());
+            assert!((contact.normal - (outward - axis) * 0.5_f64.sqrt()).amax() < 1e-15);
+            // That of the side towards which the ray comes.
+            let contact = shape.contact(&ray([0.0; 3], [3.0, -4.0, 1.0]), &at);
+            let expected = Vector::new(-0.6, 0.8, -1.0) * 0.5_f64.sqrt();
+            assert!((contact.normal - expected).amax() < 1e-15, "{}", contact.normal);
         }
     }
 
