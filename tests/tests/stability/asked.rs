@@ -4,10 +4,20 @@
 use lancer_kernel::lanes::{Lanes, Mask, Real, Vectors, Width, Work, dispatch};
 use lancer_kernel::{Candidates, Hit, KernelSettings, Prepared, Rays, SurfacePoint, Which};
 use lancer_math::{Point, Ray, Vector};
-use lancer_scene::{Camera, Colour, InvalidField, Scene, Shape, Surface};
+use lancer_scene::{Camera, Colour, InvalidField, Scene, SceneBuilder, Shape, Surface};
 
 /// Matte grey.
 pub(crate) const GREY: Surface = Surface::new(Colour::GREY);
+
+/// A shape as constructors return it.
+pub(crate) type Made = Result<Shape, InvalidField>;
+
+/// A scene of nothing but shapes.
+pub(crate) fn scene_of(shapes: impl IntoIterator<Item = Made>) -> Scene {
+    let camera = Camera::new([0.0; 3], [1.0, 0.0, 0.0], 1.0, [1, 1]);
+    let builder = Scene::builder().camera(camera);
+    shapes.into_iter().fold(builder, SceneBuilder::shape).build().expect("valid")
+}
 
 /// Shapes made ready for each number of lanes.
 pub(crate) struct Asked {
@@ -16,14 +26,12 @@ pub(crate) struct Asked {
 
 impl Asked {
     /// These shapes.
-    pub(crate) fn new(shapes: impl IntoIterator<Item = Result<Shape, InvalidField>>) -> Self {
-        let camera = Camera::new([0.0; 3], [1.0, 0.0, 0.0], 1.0, [1, 1]);
-        let scene = shapes.into_iter().fold(Scene::builder().camera(camera), |b, s| b.shape(s));
-        Self::of(&scene.build().expect("valid"))
+    pub(crate) fn new(shapes: impl IntoIterator<Item = Made>) -> Self {
+        Self::of(&scene_of(shapes))
     }
 
     /// One shape.
-    pub(crate) fn one(shape: Result<Shape, InvalidField>) -> Self {
+    pub(crate) fn one(shape: Made) -> Self {
         Self::new([shape])
     }
 
@@ -64,8 +72,8 @@ impl Asked {
                 let place = |hit: &Hit| (hit.t, hit.item);
                 assert_eq!(all.first().map(place), case.as_ref().map(place), "{name}, {ray:?}");
             }
-            let registers = Registers { prepared, rays, t_max };
-            assert_eq!(dispatch(*width, registers), expected, "registers, {}", width.name());
+            let found = by_registers(prepared, *width, (rays, t_max), None);
+            assert_eq!(found, expected, "registers, {}", width.name());
         }
         expected
     }
@@ -102,11 +110,22 @@ impl Asked {
     }
 }
 
-/// The nearest hits, found by whole registers of rays.
+/// The nearest hits with 0 < t < `t_max` of rays, found by whole registers of them. If all
+/// leave the outside of an item, that is `outside`.
+pub(crate) fn by_registers(
+    prepared: &Prepared,
+    width: Width,
+    (rays, t_max): (&[Ray], f64),
+    outside: Option<u32>,
+) -> Vec<Option<Hit>> {
+    dispatch(width, Registers { prepared, rays, t_max, outside })
+}
+
 struct Registers<'a> {
     prepared: &'a Prepared,
     rays: &'a [Ray],
     t_max: f64,
+    outside: Option<u32>,
 }
 
 impl Work for Registers<'_> {
@@ -128,8 +147,10 @@ impl Work for Registers<'_> {
             let rays = Rays::new(lanes, origin, Vectors::load(lanes, [dx, dy, dz]));
             let asked = lanes.first(chunk.len());
             let (t_max, all) = (self.t_max, &Candidates::ALL);
-            let found = self.prepared.nearest_in_lanes(&rays, t_max, asked, (all, None));
-            let any = self.prepared.any_in_lanes(&rays, t_max, asked, Which::All, (all, None));
+            let items = self.outside.map(|item| lanes.splat(f64::from(item)));
+            let found = self.prepared.nearest_in_lanes(&rays, t_max, asked, (all, items));
+            let among = (all, self.outside);
+            let any = self.prepared.any_in_lanes(&rays, t_max, asked, Which::All, among);
             let (mut t, mut item, mut part) = ([0.0; 8], [0.0; 8], [0.0; 8]);
             found.t.store(&mut t);
             found.item.store(&mut item);

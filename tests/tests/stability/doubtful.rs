@@ -25,7 +25,10 @@ fn coincident_faces() {
     let rays: Vec<Ray> = (0..2000)
         .map(|_| {
             let [x, y, u, v] = [0; 4].map(|_| 2.0 * rng.f64() - 1.0);
-            Ray::new(Point::new(3.0 * u, 3.0 * v, 2.0 + rng.f64()), Vector::new(x - 3.0 * u, y - 3.0 * v, -2.2))
+            Ray::new(
+                Point::new(3.0 * u, 3.0 * v, 2.0 + rng.f64()),
+                Vector::new(x - 3.0 * u, y - 3.0 * v, -2.2),
+            )
         })
         .collect();
     // The planes and the box.
@@ -54,7 +57,10 @@ fn coincident_shapes() {
     let shapes = [
         Shape::sphere([0.1, 0.2, 0.3], 1.0, GREY),
         Shape::cuboid([-0.7, -0.8, -0.9], [0.6, 0.5, 0.4], GREY),
-        Shape::tetrahedron([[1.0, 0.1, 0.0], [-1.0, 0.3, 0.2], [0.0, 1.0, -0.4], [0.1, 0.2, 1.1]], GREY),
+        Shape::tetrahedron(
+            [[1.0, 0.1, 0.0], [-1.0, 0.3, 0.2], [0.0, 1.0, -0.4], [0.1, 0.2, 1.1]],
+            GREY,
+        ),
         Shape::cylinder([0.1, 0.0, -0.7], [0.3, 0.1, 0.8], 0.6, GREY),
         Shape::cone([0.1, 0.0, -0.7], [0.3, 0.1, 0.8], 0.6, GREY),
         Shape::torus([0.0; 3], [0.1, 0.2, 1.0], [0.8, 0.3], GREY),

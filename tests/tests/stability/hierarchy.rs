@@ -1,15 +1,13 @@
 //! The hierarchy of boxes: no hit is lost at corners, beside walls, among what is
 //! the same, what is nested deeply and what has no end.
 
-use super::asked::{Asked, GREY, assert_near, ray, signs_of_zeros};
+use super::asked::{Asked, GREY, Made, assert_near, ray, scene_of, signs_of_zeros};
 use fastrand::Rng;
 use lancer_kernel::{Hit, Prepared, Which};
 use lancer_math::{Point, Ray, Vector};
-use lancer_scene::{Camera, Colour, InvalidField, Mesh, Scene, Shape, Surface};
+use lancer_scene::{Colour, Mesh, Shape, Surface};
 use std::sync::Arc;
 use std::time::Instant;
-
-type Made = Result<Shape, InvalidField>;
 
 /// A box with corners that are multiples of 1/1024.
 fn dyadic_box(rng: &mut Rng, thickness: i32) -> [[f64; 3]; 2] {
@@ -26,13 +24,13 @@ fn v1_rays_through_corners() {
         let mut rng = Rng::with_seed(1);
         for round in 0..40 {
             let boxes: Vec<_> = (0..200).map(|_| dyadic_box(&mut rng, thickness)).collect();
-            let asked = Asked::new(boxes.iter().map(|[low, high]| Shape::cuboid(*low, *high, GREY)));
+            let asked =
+                Asked::new(boxes.iter().map(|[low, high]| Shape::cuboid(*low, *high, GREY)));
             for case in 0..5000 {
                 let item = rng.usize(0..boxes.len());
                 let corner: [f64; 3] = std::array::from_fn(|i| boxes[item][rng.usize(0..2)][i]);
                 let zero = if rng.bool() { 0.0 } else { -0.0 };
-                let d: [f64; 3] =
-                    std::array::from_fn(|_| f64::from(rng.i32(-64..=64)) + zero);
+                let d: [f64; 3] = std::array::from_fn(|_| f64::from(rng.i32(-64..=64)) + zero);
                 if d == [0.0; 3] {
                     continue;
                 }
@@ -84,17 +82,11 @@ fn by_brute_force(alone: &[Prepared], ray: &Ray) -> Option<Hit> {
     hits.reduce(|best, hit| if hit.t < best.t { hit } else { best })
 }
 
-fn scene_of(shapes: Vec<Made>) -> Scene {
-    let camera = Camera::new([0.0; 3], [1.0, 0.0, 0.0], 1.0, [1, 1]);
-    let builder = shapes.into_iter().fold(Scene::builder().camera(camera), |b, s| b.shape(s));
-    builder.build().expect("valid")
-}
-
 /// A whole scene is met as its shapes are one by one, bit for bit.
 fn check_brute_force(shapes: Vec<Made>, rays: impl Iterator<Item = Ray>) -> usize {
     let alone: Vec<_> =
         shapes.iter().map(|shape| Prepared::new(&scene_of(vec![shape.clone()]))).collect();
-    let asked = Asked::of(&scene_of(shapes));
+    let asked = Asked::new(shapes);
     let rays: Vec<Ray> = rays.collect();
     let mut met = 0;
     for (ray, hit) in rays.iter().zip(asked.nearest_each(&rays, f64::INFINITY)) {
@@ -123,12 +115,45 @@ fn rays(seed: u64, count: usize, size: f64) -> impl Iterator<Item = Ray> {
 
 #[test]
 fn v1_as_by_brute_force() {
-    for (seed, count) in [(1, 3), (2, 40), (3, 400)] {
+    for (seed, count, rays_of_it) in [(1, 3, 40_000), (2, 40, 40_000), (3, 400, 20_000)] {
         let mut rng = Rng::with_seed(seed);
         let shapes = (0..count).map(|i| mixed(&mut rng, i)).collect();
-        let met = check_brute_force(shapes, rays(seed, 40_000_000 / (1000 + 100 * count), 12.0));
-        assert!(count < 400 || met > 200, "{met}");
+        let met = check_brute_force(shapes, rays(seed, rays_of_it, 12.0));
+        assert!(count < 400 || met > 2000, "{met}");
     }
+}
+
+/// Rays of all lengths meet the same, and what is no ray meets nothing.
+#[test]
+fn v1_lengths_and_what_is_no_ray() {
+    let mut rng = Rng::with_seed(11);
+    let asked = Asked::new((0..100).map(|i| mixed(&mut rng, i)));
+    let usual: Vec<Ray> = rays(12, 2000, 12.0).collect();
+    let expected = asked.nearest_each(&usual, f64::INFINITY);
+    assert!(expected.iter().flatten().count() > 100);
+    for exponent in [-300, -100, 100, 300] {
+        let length = libm::scalbn(1.0, exponent);
+        let scaled: Vec<Ray> =
+            usual.iter().map(|ray| Ray::new(ray.origin, ray.direction * length)).collect();
+        for (found, expected) in asked.nearest_each(&scaled, f64::INFINITY).iter().zip(&expected) {
+            let back = found.map(|hit| Hit { t: hit.t * length, ..hit });
+            assert_eq!(back, *expected, "2^{exponent}");
+        }
+    }
+    let mut none = Vec::new();
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        for ray in &usual[..60] {
+            for axis in 0..3 {
+                let (mut from, mut along) = (*ray, *ray);
+                from.origin[axis] = bad;
+                along.direction[axis] = bad;
+                none.extend([from, along]);
+            }
+        }
+    }
+    none.extend(usual[..60].iter().map(|ray| Ray::new(ray.origin, Vector::zeros())));
+    none.extend(usual[..60].iter().map(|ray| Ray::new(ray.origin, -Vector::zeros())));
+    assert!(asked.nearest_each(&none, f64::INFINITY).iter().all(Option::is_none));
 }
 
 /// A wall a hundredth beside the ray's plane does not end a box that it is in.
@@ -158,15 +183,18 @@ fn v2_no_clamped_inverses() {
     }
 }
 
-/// Builds soon, and however deep it is.
+/// Made ready in less than a second.
 fn prepared_soon(shapes: Vec<Made>, name: &str) -> Prepared {
     let scene = scene_of(shapes);
-    let begun = Instant::now();
-    let prepared = Prepared::new(&scene);
-    let took = begun.elapsed();
-    // A second is what it may take; others may be at work on the machine.
-    assert!(took.as_secs_f64() < 10.0, "{name}: {took:?}");
-    prepared
+    // Others may be at work on the machine: one time of five is enough.
+    for _ in 0..5 {
+        let begun = Instant::now();
+        let prepared = Prepared::new(&scene);
+        if begun.elapsed().as_secs_f64() < 1.0 {
+            return prepared;
+        }
+    }
+    panic!("{name}: it took more than a second each time")
 }
 
 #[test]
@@ -198,8 +226,9 @@ fn v3_all_in_one_place() {
 #[test]
 fn v3_deep_chains() {
     let side = |k: i32| libm::scalbn(1.0, -k);
-    let chain: Vec<Made> =
-        (0..1000).map(|k| Shape::cuboid([side(k + 1); 3], [side(k); 3], colours(k as usize))).collect();
+    let chain: Vec<Made> = (0..1000)
+        .map(|k| Shape::cuboid([side(k + 1); 3], [side(k); 3], colours(k as usize)))
+        .collect();
     let chain = prepared_soon(chain, "chain of boxes");
     for k in [0, 1, 10, 100, 400] {
         let middle = 0.75 * side(k);
@@ -225,7 +254,7 @@ fn v3_ties() {
                 let mut own = Rng::with_seed(i as u64 / 2);
                 mixed(&mut own, i / 2)
             };
-            let asked = Asked::of(&scene_of(order.iter().map(|&i| shape(i)).collect()));
+            let asked = Asked::new(order.iter().map(|&i| shape(i)));
             let rays: Vec<Ray> = rays(rng.u64(..), 200, 12.0).collect();
             for (ray, hit) in rays.iter().zip(asked.nearest_each(&rays, f64::INFINITY)) {
                 let Some(hit) = hit else { continue };
@@ -243,13 +272,13 @@ fn v3_shuffled() {
     let mut rng = Rng::with_seed(34);
     let shapes: Vec<Made> = (0..400).map(|i| mixed(&mut rng, i)).collect();
     let rays: Vec<Ray> = rays(35, 3000, 12.0).collect();
-    let expected = Asked::of(&scene_of(shapes.clone())).nearest_each(&rays, f64::INFINITY);
+    let expected = Asked::new(shapes.clone()).nearest_each(&rays, f64::INFINITY);
     assert!(expected.iter().flatten().count() > 300);
     for _ in 0..5 {
         let mut order: Vec<usize> = (0..shapes.len()).collect();
         rng.shuffle(&mut order);
-        let shuffled = order.iter().map(|&i| shapes[i].clone()).collect();
-        let found = Asked::of(&scene_of(shuffled)).nearest_each(&rays, f64::INFINITY);
+        let shuffled = order.iter().map(|&i| shapes[i].clone());
+        let found = Asked::new(shuffled).nearest_each(&rays, f64::INFINITY);
         for (found, expected) in found.iter().zip(&expected) {
             let back = found.map(|hit| Hit { item: order[hit.item as usize] as u32, ..hit });
             assert_eq!(back, *expected);
@@ -291,12 +320,11 @@ fn v4_without_end_and_huge() {
 #[test]
 fn v4_bounds_are_rounded_outward() {
     let mut rng = Rng::with_seed(40);
-    let flat: Vec<[f64; 3]> =
-        (0..300).map(|_| std::array::from_fn(|_| 0.1 + rng.f64())).collect();
+    let flat: Vec<[f64; 3]> = (0..300).map(|_| std::array::from_fn(|_| 0.1 + rng.f64())).collect();
     let size = 1e-9;
     let boxes: Vec<Made> =
         flat.iter().map(|p| Shape::cuboid(*p, p.map(|c| c + size), GREY)).collect();
-    let asked = Asked::of(&scene_of(boxes));
+    let asked = Asked::new(boxes);
     for (item, p) in (0..).zip(&flat) {
         let high = p.map(|c| c + size);
         for axis in 0..3 {

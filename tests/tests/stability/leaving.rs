@@ -1,20 +1,14 @@
 //! Rays that leave a surface: they do not meet it again, and miss nothing that is
 //! near it.
 
-use super::asked::{Asked, GREY, assert_near, direction, ray, ulp};
+use super::asked::{Asked, GREY, assert_near, by_registers, direction, ray, scene_of, ulp};
 use fastrand::Rng;
 use lancer_kernel::lanes::Width;
 use lancer_kernel::{Hit, KernelSettings, Prepared, SurfacePoint, Which};
 use lancer_math::{Point, Ray, Vector};
-use lancer_scene::{Camera, InvalidField, Scene, Shape};
+use lancer_scene::Shape;
 
 const SIZES: [f64; 5] = [0.0, 1e3, 1e6, 1e8, 1e10];
-
-fn scene(shapes: Vec<Result<Shape, InvalidField>>) -> Scene {
-    let camera = Camera::new([0.0; 3], [1.0, 0.0, 0.0], 1.0, [1, 1]);
-    let builder = shapes.into_iter().fold(Scene::builder().camera(camera), |b, s| b.shape(s));
-    builder.build().expect("valid")
-}
 
 /// Points of the unit sphere at (s, s, s), met from outside.
 fn hits(prepared: &Prepared, s: f64, count: usize) -> Vec<SurfacePoint<'_>> {
@@ -43,7 +37,7 @@ fn outward(rng: &mut Rng, normal: &Vector) -> Vector {
 #[test]
 fn h1_no_ray_meets_what_it_leaves() {
     for s in SIZES {
-        let scene = scene(vec![Shape::sphere([s; 3], 1.0, GREY)]);
+        let scene = scene_of([Shape::sphere([s; 3], 1.0, GREY)]);
         let prepared = Prepared::new(&scene);
         let points = hits(&prepared, s, 200_000);
         let mut rng = Rng::with_seed(2);
@@ -57,6 +51,11 @@ fn h1_no_ray_meets_what_it_leaves() {
             let mut again = vec![false; rays.len()];
             prepared.any_each(&rays, f64::INFINITY, Which::All, &mut again);
             assert!(!again.contains(&true), "{s}, {}", lanes.name());
+            // With what is left out of registers where it is known what they leave.
+            for outside in [None, Some(0)] {
+                let met = by_registers(&prepared, lanes, (&rays, f64::INFINITY), outside);
+                assert!(met.iter().all(Option::is_none), "{s}, {}", lanes.name());
+            }
         }
     }
 }
@@ -70,9 +69,9 @@ fn h1_what_is_near_is_met() {
             let gap = gap.max(20.0 * ulp(s + 1.0));
             let ball = Shape::sphere([s; 3], 1.0, GREY);
             // Both are seen from outside of the ball alone.
-            let alone = Prepared::new(&scene(vec![ball.clone()]));
-            let both = scene(vec![ball, Shape::sphere([s; 3], 1.0 + gap, GREY)]);
-            let points = hits(&alone, s, 20_000);
+            let alone = Prepared::new(&scene_of([ball.clone()]));
+            let both = scene_of([ball, Shape::sphere([s; 3], 1.0 + gap, GREY)]);
+            let points = hits(&alone, s, 10_000);
             let mut rng = Rng::with_seed(3);
             let rays: Vec<Ray> =
                 points.iter().map(|point| point.leave(outward(&mut rng, &point.normal))).collect();
@@ -83,6 +82,8 @@ fn h1_what_is_near_is_met() {
                 both.nearest_each(&rays, f64::INFINITY, &mut met);
                 let seen = met.iter().filter(|hit| hit.is_some_and(|hit| hit.item == 1)).count();
                 assert_eq!(seen, rays.len(), "{s} {gap:e}, {}", lanes.name());
+                let found = by_registers(&both, lanes, (&rays, f64::INFINITY), Some(0));
+                assert_eq!(found, met, "{s} {gap:e}, {}", lanes.name());
             }
         }
     }
@@ -107,7 +108,7 @@ fn h1_other_shapes() {
             ),
         ];
         for shape in convex {
-            let prepared = Prepared::new(&scene(vec![shape]));
+            let prepared = Prepared::new(&scene_of([shape]));
             let mut rng = Rng::with_seed(4);
             let centre = Point::new(s, s, s);
             let mut left = 0;

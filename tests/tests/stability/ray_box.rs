@@ -120,9 +120,8 @@ fn check(asked: &Asked, planes: &[([i128; 3], i128)], corners: &[[i128; 3]], see
         let pick = |k: i128| corners[k.unsigned_abs() as usize % corners.len()];
         let (a, b, along) = (pick(whole(1000)), pick(whole(1000)), whole(4) + 4);
         let past = if whole(9) == 0 { [whole(1), whole(1), whole(1)] } else { [0; 3] };
-        let o: [i128; 3] = std::array::from_fn(|i| {
-            8 * a[i] + (b[i] - a[i]) * along - steps * d[i] + past[i]
-        });
+        let o: [i128; 3] =
+            std::array::from_fn(|i| 8 * a[i] + (b[i] - a[i]) * along - steps * d[i] + past[i]);
         let ray = ray(o.map(|c| c as f64), d.map(|c| c as f64));
         let found = if case % 100 == 0 {
             asked.line(&ray)
@@ -167,7 +166,8 @@ fn b3_tetrahedra_are_decided_as_by_whole_numbers() {
         [[-7, 3, 2], [11, -5, 4], [0, 13, -6], [3, 1, 17]],
         [[0, 0, 0], [1000, 1, 0], [0, 1, 1], [500, 1, 2]],
     ] {
-        let minus = |a: [i128; 3], b: [i128; 3]| -> [i128; 3] { std::array::from_fn(|i| a[i] - b[i]) };
+        let minus =
+            |a: [i128; 3], b: [i128; 3]| -> [i128; 3] { std::array::from_fn(|i| a[i] - b[i]) };
         let planes: Vec<_> = (0..4)
             .map(|out| {
                 let [a, b, c] = [1, 2, 3].map(|k| corners[(out + k) % 4]);

@@ -156,7 +156,8 @@ fn bumpy(size: f64) -> Mesh {
             size * side * (0.6 + 0.4 * rng.f64())
         }));
     }
-    let faces = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
+    let faces =
+        [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
     let triangles = faces.iter().flat_map(|&[a, b, c, d]| [[a, c, b], [a, d, c]]).collect();
     Mesh::new(corners, triangles).expect("it has areas")
 }
@@ -197,7 +198,8 @@ fn t3_needles() {
         let (mut met, mut clear) = (0, 0);
         for case in 0..6000 {
             let grid = if single { 1024.0 } else { 65_536.0 };
-            let whole = |v: Vector| -> Whole { [v.x, v.y, v.z].map(|c| (c * grid).round() as i128) };
+            let whole =
+                |v: Vector| -> Whole { [v.x, v.y, v.z].map(|c| (c * grid).round() as i128) };
             // Edges of 11.2, 9.7 and 1.6 to within the grid.
             let (along, other) = (direction(&mut rng), direction(&mut rng));
             let across = (other - along * other.dot(&along)).normalize();
@@ -219,8 +221,8 @@ fn t3_needles() {
             let volumes = [volume(way, b, c), volume(way, c, a), volume(way, a, b)];
             let sum: i128 = volumes.iter().sum();
             let inside = volumes.iter().all(|v| *v > 0) || volumes.iter().all(|v| *v < 0);
-            let length = |v: Whole| v.iter().map(|c| (*c as f64).powi(2)).sum::<f64>().sqrt();
-            let scale = length(way) * length(a).max(length(b)).max(length(c)).powi(2);
+            let squared = |v: Whole| v.iter().map(|c| (c * c) as f64).sum::<f64>();
+            let scale = squared(way).sqrt() * squared(a).max(squared(b)).max(squared(c));
             let margin = volumes.iter().map(|v| (*v as f64).abs()).fold(f64::MAX, f64::min) / scale;
             if margin <= 1e-12 || sum == 0 {
                 continue;
@@ -238,10 +240,8 @@ fn t3_needles() {
                 let (u, v) = (minus(b, a), minus(c, a));
                 let expected = volume(a, u, v) as f64 / volume(way, u, v) as f64;
                 assert_near(Some(t), expected, 1e-12 * expected.abs());
-                let squared = length(way) * length(way);
-                let depths = [a, b, c].map(|p| {
-                    (0..3).map(|i| p[i] * way[i]).sum::<i128>() as f64 / squared
-                });
+                let depths = [a, b, c]
+                    .map(|p| (0..3).map(|i| p[i] * way[i]).sum::<i128>() as f64 / squared(way));
                 let [least, most] = [f64::min, f64::max].map(|f| depths.into_iter().reduce(f));
                 let slack = 1e-13 * depths.iter().fold(0.0_f64, |m, d| m.max(d.abs()));
                 let range = least.expect("three") - slack..=most.expect("three") + slack;
@@ -286,7 +286,8 @@ fn t5_without_area() {
         (0..clean.triangle_count()).flat_map(|k| [0, 1, 2].map(|i| corner(k, i))).collect();
     let mut triangles: Vec<[u32; 3]> =
         (0..corners.len() as u32 / 3).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
-    let expected = picture_of(Mesh::new(corners.clone(), triangles.clone()).expect("valid"), GREY, 1.0);
+    let expected =
+        picture_of(Mesh::new(corners.clone(), triangles.clone()).expect("valid"), GREY, 1.0);
     for (k, degenerate) in none.iter().enumerate() {
         let first = corners.len() as u32;
         corners.extend(degenerate.map(|p| p.map(|c| 1.5 * c)));
