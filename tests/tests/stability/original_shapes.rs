@@ -1,5 +1,5 @@
-//! Scenes in which the original program gets shapes wrong. `classic` keeps its
-//! answers, number by number; `whitted` gets them right.
+//! Scenes in which the original program gets shapes wrong. `classic` and `direct` keep
+//! its answers, number by number; `whitted` gets them right.
 
 use super::picture::film;
 use lancer_film::Film;
@@ -20,6 +20,9 @@ fn scene(name: &str, replaced: &[(&str, &str)]) -> Scene {
     let parsed = parse_with(text.as_bytes(), &Options::default(), &Beside(&folder));
     parsed.into_result().unwrap_or_else(|e| panic!("{name}: {e}"))
 }
+
+/// The engines that do what the original does.
+const ORIGINALS: [&str; 2] = ["classic", "direct"];
 
 /// As 8 bits show it.
 fn codes(scene: &Scene, engine: &str) -> Vec<[u8; 3]> {
@@ -49,8 +52,10 @@ fn inside_sphere() {
     let scene = scene("inside_sphere.xml", &[]);
     let mut small = scene.clone();
     small.shapes.remove(0);
-    assert_eq!(count(&codes(&scene, "classic"), red), 0);
-    assert_eq!(count(&codes(&small, "classic"), red), 166);
+    for engine in ORIGINALS {
+        assert_eq!(count(&codes(&scene, engine), red), 0, "{engine}");
+        assert_eq!(count(&codes(&small, engine), red), 166, "{engine}");
+    }
     let alone = count(&codes(&small, "whitted"), red);
     assert!(alone > 160);
     assert_eq!(count(&codes(&scene, "whitted"), red), alone);
@@ -60,7 +65,9 @@ fn inside_sphere() {
 #[test]
 fn closed_ball() {
     let scene = scene("closed_ball.xml", &[]);
-    assert_eq!(codes(&scene, "classic")[32 * 65 + 32], [0, 0, 254]);
+    for engine in ORIGINALS {
+        assert_eq!(codes(&scene, engine)[32 * 65 + 32], [0, 0, 254], "{engine}");
+    }
     assert_eq!(count(&codes(&scene, "whitted"), lit), 0);
 }
 
@@ -68,7 +75,9 @@ fn closed_ball() {
 #[test]
 fn plane_behind() {
     let scene = scene("plane_behind.xml", &[]);
-    assert_eq!(count(&codes(&scene, "classic"), red), 4225);
+    for engine in ORIGINALS {
+        assert_eq!(count(&codes(&scene, engine), red), 4225, "{engine}");
+    }
     assert_eq!(count(&codes(&scene, "whitted"), lit), 0);
 }
 
@@ -76,7 +85,9 @@ fn plane_behind() {
 #[test]
 fn plane_from_below() {
     let scene = scene("plane_from_below.xml", &[]);
-    assert_eq!(count(&codes(&scene, "classic"), red), 842);
+    for engine in ORIGINALS {
+        assert_eq!(count(&codes(&scene, engine), red), 842, "{engine}");
+    }
     assert_eq!(count(&codes(&scene, "whitted"), red), 0);
 }
 
@@ -86,8 +97,10 @@ fn plane_aside() {
     let scene = scene("plane_aside.xml", &[]);
     let mut ball = scene.clone();
     ball.shapes.remove(1);
-    assert_eq!(count(&codes(&scene, "classic"), lit), 0);
-    assert_eq!(count(&codes(&ball, "classic"), lit), 87);
+    for engine in ORIGINALS {
+        assert_eq!(count(&codes(&scene, engine), lit), 0, "{engine}");
+        assert_eq!(count(&codes(&ball, engine), lit), 87, "{engine}");
+    }
     let alone = count(&codes(&ball, "whitted"), red);
     assert!(alone > 80);
     assert_eq!(count(&codes(&scene, "whitted"), red), alone);
@@ -122,7 +135,10 @@ fn far_sphere() {
         ("1e8", "4e-8", 3205),
     ] {
         let scene = far(distance, width);
-        assert_eq!(misjudged(film(&scene, "classic").pixels(), 0.0), wrong, "{distance}");
+        for engine in ORIGINALS {
+            let found = misjudged(film(&scene, engine).pixels(), 0.0);
+            assert_eq!(found, wrong, "{engine} {distance}");
+        }
         let whitted = film(&scene, "whitted");
         assert_eq!(misjudged(whitted.pixels(), 0.5), 0, "{distance}");
         // As bright as the cosine: its square is 1 - (x^2 + y^2) / 32^2.
@@ -140,10 +156,12 @@ fn far_sphere() {
 /// Squares of components left the range of doubles.
 #[test]
 fn normals() {
-    for (name, classic) in [("tiny_normal.xml", [0, 0]), ("normal_nearly_x.xml", [4096, 0])] {
+    for (name, original) in [("tiny_normal.xml", [0, 0]), ("normal_nearly_x.xml", [4096, 0])] {
         let scene = scene(name, &[]);
-        let found = codes(&scene, "classic");
-        assert_eq!([count(&found, red), count(&found, blue)], classic, "{name}");
+        for engine in ORIGINALS {
+            let found = codes(&scene, engine);
+            assert_eq!([count(&found, red), count(&found, blue)], original, "{engine} {name}");
+        }
         let found = codes(&scene, "whitted");
         assert_eq!([count(&found, red), count(&found, blue)], [2048, 2048], "{name}");
         assert_eq!(count(&found, lit), 4096, "{name}");
@@ -176,7 +194,8 @@ fn globe() {
     };
     let mut expected = [28.6; 12];
     (expected[0], expected[11]) = (16.2, 57.3);
-    for (engine, expected) in [("classic", expected), ("whitted", [30.0; 12])] {
+    for (engine, expected) in [("classic", expected), ("direct", expected), ("whitted", [30.0; 12])]
+    {
         let found = sorted(engine);
         assert_eq!(found.len(), 12, "{engine}: {found:?}");
         // A pixel is a third of a degree there.
