@@ -23,8 +23,8 @@
 //! Degenerate cases: along the axis of a cylinder the barrel is everywhere or
 //! nowhere; parallel to a line of a cone's side (a = 0), and steeper (a < 0), it is
 //! a half-line; a ray in a line of the side is none. At the apex the normal is
-//! along the axis. A ray through the apex alone touches: its two crossings are
-//! one.
+//! that of the side which the ray comes towards, so that it is as bright as what is
+//! around it. A ray through the apex alone touches: its two crossings are one.
 
 use super::exact::difference_of_products;
 use super::frame::{Frame, across};
@@ -238,14 +238,17 @@ impl Primitive for Barrel {
         let (z, across) = self.split(&at);
         let distance = across.norm();
         let apart = distance > 0.0;
-        // On the axis, where a thin end seen from afar may be hit, all are as good.
-        let outward = if apart { across / distance } else { self.frame.first };
+        let outward = if apart {
+            across / distance
+        } else {
+            let (_, sideward) = self.split(&ray.direction);
+            unit(-sideward).unwrap_or(self.frame.first)
+        };
         let (z, radius, normal) = if crossing.part == SIDE {
             let z = z.clamp(0.0, self.length);
             let radius = self.radii[0] + self.slope * z;
             // The slope's own length may be beyond a double; unit() has none of that.
-            let has_one = apart || radius > 0.0;
-            let normal = unit(outward - self.axis * self.slope).filter(|_| has_one);
+            let normal = unit(outward - self.axis * self.slope);
             (z, radius, normal.unwrap_or(-self.axis))
         } else if crossing.part == self.lids[0] {
             (0.0, distance.min(self.radii[0]), -self.axis)
@@ -404,7 +407,13 @@ mod tests {
             }
             let at = Crossing { t: 0.0, part: SIDE };
             let contact = shape.contact(&ray([0.0; 3], [0.0, 0.0, 1.0]), &at);
-            assert_eq!((contact.point, contact.normal), (Point::origin(), -Vector::z()));
+            let (outward, axis) = (shape.frame.first, Vector::z());
+            assert_eq!(contact.point, Point::origin());
+            assert!((contact.normal - (outward - axis) * 0.5_f64.sqrt()).amax() < 1e-15);
+            // That of the side towards which the ray comes.
+            let contact = shape.contact(&ray([0.0; 3], [3.0, -4.0, 1.0]), &at);
+            let expected = Vector::new(-0.6, 0.8, -1.0) * 0.5_f64.sqrt();
+            assert!((contact.normal - expected).amax() < 1e-15, "{}", contact.normal);
         }
     }
 
