@@ -4,3 +4,17 @@
 //! number of the failure.
 
 mod deferred;
+
+// Whole pictures.
+mod camera;
+mod media;
+mod mirrors;
+mod optics;
+mod original_pictures;
+mod output;
+mod pictures;
+mod range;
+mod repeatable;
+mod seen;
+mod shadows;
+mod textures;
