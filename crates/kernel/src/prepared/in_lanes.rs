@@ -181,7 +181,8 @@ impl Prepared {
         match self.listed.plane(item) {
             Some(plane) => {
                 let (first, second) = plane.squares(lanes, &points.point, checker);
-                checker::cells(lanes, first, second)
+                let slack = checker::slacks(lanes, points.error, checker.length.get());
+                checker::cells(lanes, first, second, slack)
             }
             None => checker::on_globe(lanes, &points.normal, checker.angle.get()),
         }

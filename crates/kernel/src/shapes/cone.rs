@@ -263,9 +263,13 @@ impl Primitive for Barrel {
     /// from their middle and the angle.
     fn cell(&self, contact: &Contact, part: u32, checker: &Checker) -> Cell {
         let at = self.frame.local(&(contact.point - self.base));
-        let along = if part == SIDE { at.z } else { (at.x * at.x + at.y * at.y).sqrt() };
+        let across = (at.x * at.x + at.y * at.y).sqrt();
+        let along = if part == SIDE { at.z } else { across };
         let turn = checker::turn(at.x, at.y);
-        checker::cell(along / checker.length.get(), turn / checker.angle.get())
+        let (length, angle) = (checker.length.get(), checker.angle.get());
+        let slack = checker::slack(contact.error, length);
+        let slack_around = checker::slack_around(contact.error, across, angle);
+        checker::cell([along / length, turn / angle], [slack, slack_around])
     }
 
     /// Around the circles of both lids.
