@@ -2,7 +2,7 @@
 
 use crate::pictures::{FILM, assert_near, built, by, codes, eye, floor, scene, shining, white};
 use lancer_film::{Display, Film, LightMeter, Size};
-use lancer_integrator::{Trouble, Whitted};
+use lancer_integrator::Trouble;
 use lancer_output::{Bits, Format, decode, encode, to_rgb8};
 use lancer_scene::{Camera, Light, Shape};
 
@@ -91,7 +91,7 @@ fn o1_pixels_that_are_no_numbers_are_counted() {
     assert_eq!(differ, [3 * 8 + 4]);
 }
 
-/// Pass: with a chosen exposure a highlight of any brightness elsewhere changes nothing.
+/// Pass: a highlight of any brightness elsewhere changes nothing.
 /// The original's 121 becomes 3 and 0.
 #[test]
 fn o2_a_highlight_elsewhere_changes_no_other_pixel() {
@@ -113,9 +113,9 @@ fn o2_a_highlight_elsewhere_changes_no_other_pixel() {
         for highlight in [4.0, 20.0, 1000.0, 1e30] {
             let with = lit(highlight, stops);
             let differ = (0..256).filter(|i| with[3 * i..][..3] != plain[3 * i..][..3]).count();
-            // One pixel in 256 is fewer than the one in a hundred that the usual rule
-            // lets be over-exposed.
-            assert_eq!(differ, usize::from(highlight > 0.2 && stops.is_some() || differ == 1));
+            // Where nobody has chosen one, too: the usual rule lets one pixel in a hundred be
+            // over-exposed.
+            assert_eq!(differ, 1, "{highlight} {stops:?}");
         }
     }
 }
@@ -219,5 +219,4 @@ fn o3_the_light_of_many_mirrors_is_summed_in_double_precision() {
     let found = crate::pictures::middle_with(&scene, 1e-4);
     let missing = 1.0 - found / 102.4;
     assert!((-FILM..=1e-4).contains(&missing), "{missing}");
-    assert!(Whitted::CUTOFF <= 1e-4);
 }

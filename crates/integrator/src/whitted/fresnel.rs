@@ -121,8 +121,7 @@ mod tests {
             let found = mirrored(degrees, 1.0, 1.5);
             assert!((found - expected).abs() < 1e-14, "{degrees}: {found} {expected}");
         }
-        for (degrees, expected) in
-            [(40.0, 0.245_291_204_286_910_35), (41.0, 0.379_751_265_962_440_04)]
+        for (degrees, expected) in [(40.0, 0.245_291_204_286_910_35), (41.0, 0.379_751_265_962_44)]
         {
             let found = mirrored(degrees, 1.5, 1.0);
             assert!((found - expected).abs() < 1e-14, "{degrees}: {found} {expected}");
