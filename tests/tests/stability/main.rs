@@ -17,3 +17,17 @@ mod ray_sphere;
 mod round;
 mod torus;
 mod triangle;
+
+// Whole pictures.
+mod camera;
+mod media;
+mod mirrors;
+mod optics;
+mod original_pictures;
+mod output;
+mod pictures;
+mod range;
+mod repeatable;
+mod seen;
+mod shadows;
+mod textures;

@@ -80,7 +80,8 @@ impl ListedShape<'_> {
             Kind::Ball(_) => checker::on_globe(lanes, &points.normal, checker.angle.get()),
             Kind::Plane(plane) => {
                 let (first, second) = plane.squares(lanes, &points.point, checker);
-                checker::cells(lanes, first, second)
+                let slack = checker::slacks(lanes, points.error, checker.length.get());
+                checker::cells(lanes, first, second, slack)
             }
         }
     }

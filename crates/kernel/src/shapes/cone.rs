@@ -238,6 +238,8 @@ impl Primitive for Barrel {
         let (z, across) = self.split(&at);
         let distance = across.norm();
         let apart = distance > 0.0;
+        // On the axis, at an apex or where a thin end is seen from afar, the side that the
+        // ray comes from.
         let outward = if apart {
             across / distance
         } else {
@@ -267,9 +269,13 @@ impl Primitive for Barrel {
     /// from their middle and the angle.
     fn cell(&self, contact: &Contact, part: u32, checker: &Checker) -> Cell {
         let at = self.frame.local(&(contact.point - self.base));
-        let along = if part == SIDE { at.z } else { (at.x * at.x + at.y * at.y).sqrt() };
+        let across = (at.x * at.x + at.y * at.y).sqrt();
+        let along = if part == SIDE { at.z } else { across };
         let turn = checker::turn(at.x, at.y);
-        checker::cell(along / checker.length.get(), turn / checker.angle.get())
+        let (length, angle) = (checker.length.get(), checker.angle.get());
+        let slack = checker::slack(contact.error, length);
+        let slack_around = checker::slack_around(contact.error, across, angle);
+        checker::cell([along / length, turn / angle], [slack, slack_around])
     }
 
     /// Around the circles of both lids.

@@ -243,8 +243,12 @@ impl Primitive for Ball {
     fn cell(&self, contact: &Contact, _part: u32, checker: &Checker) -> Cell {
         let n = contact.normal;
         let angle = checker.angle.get();
-        let latitude = libm::atan2(n.z, libm::hypot(n.x, n.y)).to_degrees();
-        checker::cell(checker::turn(n.x, n.y) / angle, latitude / angle)
+        let across = libm::hypot(n.x, n.y);
+        let latitude = libm::atan2(n.z, across).to_degrees();
+        // Meridians run together at the poles.
+        let slack = [across, 1.0]
+            .map(|radius| checker::slack_around(contact.error, radius * self.radius, angle));
+        checker::cell([checker::turn(n.x, n.y) / angle, latitude / angle], slack)
     }
 
     fn bounds(&self) -> Option<Bounds> {

@@ -115,8 +115,10 @@ impl Primitive for Facets {
     /// has least of.
     fn cell(&self, contact: &Contact, _part: u32, checker: &Checker) -> Cell {
         let axis = contact.normal.iamax();
-        let at = contact.point.coords / checker.length.get();
-        checker::cell(at[(axis + 1) % 3], at[(axis + 2) % 3])
+        let length = checker.length.get();
+        let at = contact.point.coords / length;
+        let slack = checker::slack(contact.error, length);
+        checker::cell([at[(axis + 1) % 3], at[(axis + 2) % 3]], [slack; 2])
     }
 
     fn bounds(&self) -> Option<Bounds> {
