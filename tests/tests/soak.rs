@@ -1,13 +1,20 @@
 //! A short soak of each kind of shape; `cargo xtask stability` asks for longer ones.
 
-use lancer_tests::soak::{Kind, check};
+use lancer_tests::soak::{Kind, soak};
 
 macro_rules! checks {
     ($($name:ident: $kind:ident,)*) => {
         $(#[test]
         fn $name() {
-            check(Kind::$kind, 100, 1000);
+            let problems = soak(Kind::$kind, 0, 40_000).problems();
+            assert!(problems.is_empty(), "{}", problems.join("\n\n"));
         })*
+
+        #[test]
+        fn no_kind_is_left_out() {
+            let names: Vec<_> = Kind::all().map(Kind::name).collect();
+            assert_eq!([$(Kind::$kind.name()),*], names[..]);
+        }
     };
 }
 
@@ -29,4 +36,5 @@ checks! {
     tori: Torus,
     closed_meshes: ClosedMesh,
     open_meshes: OpenMesh,
+    mixed_shapes: Mixed,
 }

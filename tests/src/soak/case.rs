@@ -1,23 +1,43 @@
-//! Random scenes of one kind of shape, and random rays to ask them with.
+//! Random scenes of one kind of shape.
 
 use super::figure::Crossing;
+use super::kind::Kind;
 use super::sample::{any_direction, between, power_of_ten};
 use super::space::{Frame, Line, Long};
-use super::subject::{Kind, Subject};
+use super::subject::Subject;
 use fastrand::Rng;
 use lancer_kernel::Prepared;
 use lancer_math::{Placement, Point, Ray, Vector};
-use lancer_scene::{Camera, Group, Placed, Scene};
+use lancer_scene::{Camera, Group, Placed, Scene, SceneBuilder, Shape};
 use std::sync::Arc;
 
 /// A scene, prepared by the kernel and known to the test.
 #[derive(Debug)]
 pub(crate) struct Case {
+    pub(crate) scene: Scene,
     pub(crate) prepared: Prepared,
     subjects: Vec<Subject>,
-    frames: Vec<(Placement, Frame)>,
-    /// The number of the subject and of the frame of each item.
+    stands: Vec<Stand>,
+    /// The number of the subject and of the stand of each item.
     items: Vec<(usize, usize)>,
+}
+
+/// Where the subjects stand once.
+#[derive(Debug)]
+struct Stand {
+    /// The placements of groups within groups, the innermost first.
+    chain: Vec<Placement>,
+    /// All of them together.
+    placement: Placement,
+    frame: Frame,
+}
+
+impl Stand {
+    fn new(chain: Vec<Placement>) -> Self {
+        let outward = chain.iter().rev();
+        let placement = outward.fold(Placement::IDENTITY, |outer, p| p.then(&outer));
+        Self { chain, placement, frame: Frame::new(&placement) }
+    }
 }
 
 /// A crossing in the world.
@@ -46,41 +66,73 @@ fn random_placement(rng: &mut Rng) -> Placement {
     if rng.bool() { turn.then(&stretch).then(&step) } else { stretch.then(&turn).then(&step) }
 }
 
+fn builder() -> SceneBuilder {
+    Scene::builder().camera(Camera::new([0.0; 3], [0.0, 1.0, 0.0], 1.0, [4, 3]))
+}
+
+/// Adds shapes, within so many groups.
+fn stand(builder: SceneBuilder, shapes: &Arc<Group>, chain: &[Placement]) -> SceneBuilder {
+    let Some((last, inner)) = chain.split_last() else {
+        return shapes.shapes().iter().fold(builder, |builder, s| builder.shape(Ok(s.clone())));
+    };
+    let around = |group: Arc<Group>, placement: &Placement| {
+        let placed = vec![Placed { placement: *placement, group }];
+        Arc::new(Group::new(None, Vec::new(), placed).expect("a group"))
+    };
+    builder.group(*last, inner.iter().fold(Arc::clone(shapes), around))
+}
+
+fn group(shapes: Vec<Shape>) -> Arc<Group> {
+    Arc::new(Group::new(None, shapes, Vec::new()).expect("a group"))
+}
+
 impl Case {
-    /// The first and third of four scenes stand as they are; the second is placed once
-    /// or twice, and the fourth in groups within groups.
-    pub(crate) fn new(kind: Kind, number: u64) -> Self {
-        let mut rng = Rng::with_seed(number);
-        let count = if number % 5 == 4 { 3 } else { 1 };
-        let subjects: Vec<_> = (0..count).map(|_| Subject::random(kind, &mut rng)).collect();
-        let shapes: Vec<_> = subjects.iter().map(|subject| subject.shape.clone()).collect();
-        let camera = Camera::new([0.0; 3], [0.0, 1.0, 0.0], 1.0, [4, 3]);
-        let mut builder = Scene::builder().camera(camera);
-        let mut placements = Vec::new();
-        if number.is_multiple_of(2) {
-            builder = shapes.into_iter().fold(builder, |builder, s| builder.shape(Ok(s)));
-            placements.push(Placement::IDENTITY);
-        } else {
-            let depth = if number % 4 == 1 { 0 } else { rng.usize(1..=3) };
-            let shared = Arc::new(Group::new(None, shapes, Vec::new()).expect("a group"));
-            for _ in 0..rng.usize(1..=2) {
-                let (mut group, mut chain) = (shared.clone(), vec![random_placement(&mut rng)]);
-                for _ in 0..depth {
-                    let placement = chain[chain.len() - 1];
-                    let placed = vec![Placed { placement, group }];
-                    group = Arc::new(Group::new(None, Vec::new(), placed).expect("a group"));
-                    chain.push(random_placement(&mut rng));
+    /// Of eight scenes four stand as they are, two of them as a shell of a second
+    /// copy that is moved by little; the others are placed once or twice, half of them in groups
+    /// within groups.
+    pub(crate) fn new(kind: Kind, seed: u64, number: u64) -> Self {
+        let mut rng = Rng::with_seed(seed);
+        let rng = &mut rng;
+        let count = match number % 5 {
+            _ if kind == Kind::Mixed => rng.usize(4..=24),
+            4 => 3,
+            _ => 1,
+        };
+        let subjects: Vec<_> = (0..count).map(|_| Subject::random(kind, rng)).collect();
+        let mut stands = Vec::new();
+        match number % 4 {
+            0 => stands.push(Stand::new(Vec::new())),
+            2 => {
+                let size = subjects[0].sample.size;
+                let gap = any_direction(rng) * (size * power_of_ten(rng, -16.0, -1.0));
+                stands.push(Stand::new(Vec::new()));
+                stands.push(Stand::new(vec![Placement::translate(gap)]));
+            }
+            odd => {
+                let depth = if odd == 1 { 0 } else { rng.usize(1..=3) };
+                for _ in 0..rng.usize(1..=2) {
+                    let chain = (0..=depth).map(|_| random_placement(rng)).collect();
+                    stands.push(Stand::new(chain));
                 }
-                builder = builder.group(chain[chain.len() - 1], group);
-                let whole = chain.iter().rev();
-                placements.push(whole.fold(Placement::IDENTITY, |outer, p| p.then(&outer)));
             }
         }
-        let scene = builder.build().expect("a scene");
-        let frames = 0..placements.len();
-        let items = frames.flat_map(|frame| (0..count).map(move |s| (s, frame))).collect();
-        let frames = placements.into_iter().map(|p| (p, Frame::new(&p))).collect();
-        Self { prepared: Prepared::new(&scene), subjects, frames, items }
+        let shared = group(subjects.iter().map(|subject| subject.shape.clone()).collect());
+        let all = stands.iter();
+        let scene = all.fold(builder(), |builder, s| stand(builder, &shared, &s.chain));
+        let scene = scene.build().expect("a scene");
+        let items = 0..stands.len();
+        let items = items.flat_map(|stand| (0..count).map(move |s| (s, stand))).collect();
+        Self { prepared: Prepared::new(&scene), scene, subjects, stands, items }
+    }
+
+    /// The item alone, where it stands.
+    pub(crate) fn alone(&self, item: u32, shape: Shape) -> Scene {
+        let chain = &self.stands[self.items[item as usize].1].chain;
+        stand(builder(), &group(vec![shape]), chain).build().expect("a scene")
+    }
+
+    pub(crate) fn placement(&self, item: u32) -> &Placement {
+        &self.stands[self.items[item as usize].1].placement
     }
 
     pub(crate) fn item_count(&self) -> u32 {
@@ -92,14 +144,13 @@ impl Case {
     }
 
     pub(crate) fn frame(&self, item: u32) -> &Frame {
-        &self.frames[self.items[item as usize].1].1
+        &self.stands[self.items[item as usize].1].frame
     }
 
     /// What makes an item again, to the last bit.
     pub(crate) fn describe(&self, item: u32) -> String {
-        let (subject, frame) = self.items[item as usize];
-        let geometry = &self.subjects[subject].shape.geometry;
-        format!("{geometry:?} placed by {:?}", self.frames[frame].0)
+        let geometry = &self.subject(item).shape.geometry;
+        format!("{geometry:?} placed by {:?}", self.placement(item))
     }
 
     /// The ray as an item sees it.
@@ -125,7 +176,11 @@ impl Case {
         let mut entries = Vec::new();
         let mut found = Vec::new();
         for item in 0..self.item_count() {
-            let (line, figure) = (self.line(item, ray), &self.subject(item).figure);
+            let (line, subject) = (self.line(item, ray), self.subject(item));
+            if subject.is_clear_of(&line) {
+                continue;
+            }
+            let figure = &subject.figure;
             figure.crossings(&line, &mut found);
             entries.extend(found.drain(..).map(|crossing| {
                 let normal = figure.normal(crossing.part, line.at(crossing.t));
@@ -141,80 +196,6 @@ impl Case {
         entries.sort_by(|a, b| a.crossing.t.partial_cmp(&b.crossing.t).expect("no NaN"));
         entries
     }
-
-    /// A random ray, and whether it was not made to be difficult.
-    pub(crate) fn ray(&self, rng: &mut Rng, number: u64) -> (Ray, bool) {
-        let item = rng.usize(..self.items.len());
-        let (subject, frame) = self.items[item];
-        let subject = &self.subjects[subject];
-        let sample = &subject.sample;
-        let (centre, size) = (sample.centre, sample.size);
-        let aside = |rng: &mut Rng, by: f64| any_direction(rng) * by;
-        let away = |rng: &mut Rng| size * power_of_ten(rng, -1.0, 1.5);
-        let mut is_easy = number % 6 < 3;
-        let (origin, direction) = match number % 6 {
-            // From inside, or between the parts of a tube.
-            2 if !subject.is_flat() => (sample.inside(rng), any_direction(rng)),
-            // At the shape or past it, some along an axis of coordinates.
-            0..3 => {
-                let target = if rng.bool() {
-                    let by = 1.2 * size * rng.f64();
-                    centre + aside(rng, by)
-                } else {
-                    let by = size * power_of_ten(rng, -4.0, 0.0);
-                    sample.on_surface(rng).0 + aside(rng, by)
-                };
-                let direction = if rng.u8(..8) == 0 {
-                    is_easy = false;
-                    Vector::ith(rng.usize(..3), if rng.bool() { 1.0 } else { -1.0 })
-                } else {
-                    any_direction(rng)
-                };
-                let back = size + away(rng);
-                (target - direction * back, direction)
-            }
-            // Along a tangent, a little beside the surface.
-            3 => {
-                let (point, normal) = sample.on_surface(rng);
-                let along = unit_across(rng, normal);
-                let beside = size * power_of_ten(rng, -17.0, -3.0);
-                let beside = normal * if rng.bool() { beside } else { -beside };
-                let back = size + away(rng);
-                (point + beside - along * back, along)
-            }
-            // At an edge or a corner, a little beside it.
-            4 => {
-                let by = if rng.u8(..8) == 0 { 0.0 } else { power_of_ten(rng, -17.0, -3.0) };
-                let target = sample.on_edge(rng) + aside(rng, size * by);
-                let back = size + away(rng);
-                let origin = target + aside(rng, back);
-                (origin, (target - origin) / back)
-            }
-            // From the surface, or from next to it.
-            _ => {
-                let (point, normal) = sample.on_surface(rng);
-                let off = if rng.u8(..4) == 0 { 0.0 } else { power_of_ten(rng, -16.0, -2.0) };
-                let off = size * if rng.bool() { off } else { -off };
-                (point + normal * off, any_direction(rng))
-            }
-        };
-        let placement = &self.frames[frame].0;
-        let (origin, direction): (Point, Vector) = if placement.is_identity() {
-            (origin, direction)
-        } else {
-            (placement.point(&origin), placement.vector(&direction))
-        };
-        let length = if rng.u8(..4) == 0 { 1.0 } else { power_of_ten(rng, -3.0, 3.0) };
-        (Ray::new(origin, direction * length), is_easy)
-    }
-}
-
-fn unit_across(rng: &mut Rng, normal: Vector) -> Vector {
-    let mut across = normal.cross(&any_direction(rng));
-    while across.norm() < 0.01 {
-        across = normal.cross(&any_direction(rng));
-    }
-    across / across.norm()
 }
 
 impl Entry {

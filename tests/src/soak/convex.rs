@@ -3,7 +3,7 @@
 
 use super::cone::{Side, Within};
 use super::dd::Dd;
-use super::figure::{BAND, Crossing, Figure, WAVER};
+use super::figure::{BAND, Crossing, Figure, NEAR, WAVER};
 use super::space::{Line, Long};
 use lancer_math::Point;
 
@@ -132,7 +132,7 @@ impl Convex {
             let inside = to.clamp(1e-3 * width, (1.0 - 1e-3) * width);
             let t = low + Dd::from(inside);
             let (distance, slope) = self.outmost(line, t);
-            if bound > BAND * line.scale || distance - bound < 1e-3 * BAND * line.scale {
+            if bound > NEAR * line.scale || distance - bound < 1e-3 * BAND * line.scale {
                 return (t, distance.max(0.0));
             }
             if slope < 0.0 {
@@ -187,11 +187,11 @@ impl Figure for Convex {
             found.push(Crossing { slack: later, ..Crossing::new(from, first, true, margin) });
             found.push(Crossing { slack: sooner, ..Crossing::new(to, last, true, margin) });
         }
-        if depth < BAND * line.scale {
+        if depth < NEAR * line.scale {
             let (nearest, aside) =
                 if is_crossed { ((from + to).half(), depth) } else { self.clearance(line) };
             // Around an edge, or along a face, it may be any of them that is found.
-            if aside < BAND * line.scale {
+            if aside < NEAR * line.scale {
                 let margin = aside / line.scale;
                 let parts = 0..self.faces.len();
                 found.extend(parts.map(|part| Crossing::new(nearest, part, false, margin)));

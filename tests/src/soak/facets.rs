@@ -1,7 +1,7 @@
 //! Meshes: every triangle is asked.
 
 use super::dd::Dd;
-use super::figure::{BAND, Crossing, Figure};
+use super::figure::{BAND, Crossing, Figure, NEAR};
 use super::sheets::Flat;
 use super::space::{Line, Long};
 use lancer_math::{Point, Vector};
@@ -86,7 +86,7 @@ impl Facets {
             let farthest = beyond.iter().fold(f64::NEG_INFINITY, |a, &b| a.max(b));
             let share = cosine / line.scale;
             let margin = farthest.abs() * share;
-            if farthest <= 0.0 || margin < BAND {
+            if farthest <= 0.0 || margin < NEAR {
                 let mut crossing = Crossing::new(t, part, farthest <= 0.0, margin);
                 crossing.slack = (4.0 * BAND * line.scale / cosine).min(line.scale) / line.length;
                 let at_rim = (0..3).any(|k| facet.is_rim[k] && beyond[k].abs() * share < BAND);

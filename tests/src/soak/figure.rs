@@ -37,6 +37,10 @@ impl Crossing {
 /// rays 5.9e-15 for meshes, and less than 4e-16 for nearly all other shapes.
 pub(crate) const BAND: f64 = 3e-14;
 
+/// What would change by so little is reported by [`Figure::crossings`]: sixteen times
+/// the band.
+pub(crate) const NEAR: f64 = 16.0 * BAND;
+
 /// By this share of the size of the scene seen from a ray its own roundings may move
 /// it; the crossing moves by 1 / |cos| of that.
 pub(crate) const WAVER: f64 = 4e-15;
@@ -44,7 +48,7 @@ pub(crate) const WAVER: f64 = 4e-15;
 /// A shape, described anew.
 pub(crate) trait Figure: std::fmt::Debug {
     /// All crossings of the whole line, those behind its origin too, in any
-    /// order, and those that are not there by less than [`BAND`].
+    /// order, and those that are not there by less than [`NEAR`].
     fn crossings(&self, line: &Line, found: &mut Vec<Crossing>);
 
     /// The distance from a part (continued beyond its edges), positive on the

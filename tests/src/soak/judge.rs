@@ -2,19 +2,19 @@
 
 use super::case::{Case, Entry};
 use super::dd::Dd;
-use super::figure::BAND;
+use super::figure::{BAND, NEAR};
 use super::sample::{any_direction, power_of_ten};
-use super::tally::Tally;
+use super::tally::{Tally, Wrong};
 use fastrand::Rng;
 use lancer_kernel::{Hit, Which};
 use lancer_math::{Ray, Vector};
 
-/// The distance that is asked for where |cos| is at least [`STEEP`].
+/// The distance is asked for to no less than this where |cos| is at least [`STEEP`].
 const RELATIVE: f64 = 1e-12;
 const STEEP: f64 = 1e-3;
 
 /// How many roundings of the lengths that a ray's numbers are held against may
-/// move the surface along its normal, where less is asked for: below [`STEEP`],
+/// move the surface along its normal: the only bound below [`STEEP`],
 /// where the ray starts nearer to the surface than a quarter of those lengths
 /// (an origin that is known to a rounding knows no better how near that is), and
 /// where shapes are placed (the ray's numbers in the space of the group are
@@ -40,6 +40,10 @@ impl Entry {
 
     fn is_sure(&self) -> bool {
         self.crossing.is_there && self.crossing.margin >= BAND
+    }
+
+    fn is_doubtful(&self) -> bool {
+        self.crossing.margin < BAND
     }
 
     fn is_ahead(&self) -> bool {
@@ -73,7 +77,7 @@ impl Entry {
         let relative = RELATIVE * self.crossing.t.round().abs();
         let rounding = ROUNDINGS * ROUNDING * self.reach() / (self.local_cosine * self.line.length);
         let is_strict = self.cosine >= STEEP && self.is_plain(case);
-        self.crossing.slack + if is_strict { relative } else { relative.max(rounding) }
+        self.crossing.slack + if is_strict { relative.min(rounding) } else { rounding }
     }
 
     fn off(&self, t: f64) -> f64 {
@@ -94,12 +98,15 @@ impl Entry {
     }
 }
 
-/// A ray, and how it was made.
+/// Whether something that a ray meets is within sixteen bounds of a decision.
+pub(crate) fn is_close(entries: &[Entry]) -> bool {
+    entries.iter().any(|e| e.crossing.margin < NEAR)
+}
+
+/// A ray, and what it was made to start off from.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Asked {
     pub(crate) ray: Ray,
-    /// It was not made to be difficult.
-    pub(crate) is_easy: bool,
     pub(crate) left: Option<Left>,
 }
 
@@ -109,24 +116,38 @@ pub(crate) struct Left {
     item: u32,
     part: usize,
     by: f64,
+    /// To the outside of a closed shape.
+    goes_out: bool,
 }
 
-/// All that can be asked about one ray.
-pub(crate) fn judge(case: &Case, asked: &Asked, rng: &mut Rng, tally: &mut Tally) {
-    let (ray, prepared) = (&asked.ray, &case.prepared);
-    let entries = case.crossings(ray);
-    let hit = prepared.nearest(ray, f64::INFINITY);
-    tally.count(asked, hit.is_some());
+impl Left {
+    /// The closed item whose outside it leaves.
+    pub(crate) fn outside(&self) -> Option<u32> {
+        self.goes_out.then_some(self.item)
+    }
+}
+
+/// Holds what the kernel says of a ray against its crossings. Returned is a ray that
+/// leaves the hit.
+pub(crate) fn judge(
+    case: &Case,
+    asked: &Asked,
+    (hit, entries): (Option<Hit>, &[Entry]),
+    rng: &mut Rng,
+    tally: &mut Tally,
+) -> Option<Asked> {
+    let ray = &asked.ray;
 
     let is_open = |e: &Entry| e.is_at_origin(asked.left);
     let needed = |e: &&Entry| e.is_sure() && e.is_ahead() && !is_open(e);
     let first = entries.iter().find(needed);
     let until = first.map_or(f64::INFINITY, |e| e.crossing.t.round());
     let doubtful =
-        |e: &Entry| e.crossing.t.round() < until && (is_open(e) || !e.is_sure() && e.is_ahead());
+        |e: &Entry| e.crossing.t.round() < until && (is_open(e) || e.is_doubtful() && e.is_ahead());
     if entries.iter().any(doubtful) {
-        tally.in_band(asked.is_easy);
+        tally.in_band();
     }
+    let mut next = None;
     let Some(hit) = hit else {
         if let Some(first) = first {
             tally.fail(case, ray, first, "misses", None);
@@ -135,10 +156,11 @@ pub(crate) fn judge(case: &Case, asked: &Asked, rng: &mut Rng, tally: &mut Tally
         {
             tally.widen(e);
         }
-        return all(case, asked, &entries, None, tally);
+        all(case, asked, entries, None, tally);
+        return None;
     };
     let may_be = |e: &&Entry| {
-        let ahead = e.is_ahead() || is_open(e) || !e.is_sure() && asked.left.is_none();
+        let ahead = e.is_ahead() || is_open(e) || e.is_doubtful() && asked.left.is_none();
         e.item == hit.item && ahead && e.is_found_at(case, hit.t)
     };
     let found: Vec<&Entry> = entries.iter().filter(may_be).collect();
@@ -147,7 +169,9 @@ pub(crate) fn judge(case: &Case, asked: &Asked, rng: &mut Rng, tally: &mut Tally
     {
         tally.fail(case, ray, first, "finds too late", Some(&hit));
     } else if found.is_empty() {
-        tally.fail_at(case, ray, first, "finds what is not there", &hit);
+        let is_own = asked.left.is_some_and(|left| left.item == hit.item);
+        let wrong = if is_own { Wrong::SelfHit } else { Wrong::False };
+        tally.complain(case, ray, wrong, format!("finds what is not there: {hit:?}"));
     } else {
         if found.iter().all(|e| !e.crossing.is_there) {
             tally.widen(found[0]);
@@ -155,15 +179,16 @@ pub(crate) fn judge(case: &Case, asked: &Asked, rng: &mut Rng, tally: &mut Tally
         let nearest = found.iter().filter(|e| e.is_sure());
         let off = |e: &&&Entry| e.off(hit.t);
         if let Some(e) = nearest.min_by(|a, b| off(a).total_cmp(&off(b))) {
-            let is_steep = e.cosine >= STEEP;
-            tally.distance(case, e, &hit, is_steep && e.is_far(), e.reach() * ROUNDING);
+            let off = (e.off(hit.t) - e.crossing.slack).max(0.0);
+            let ulps = off * e.line.length / (e.reach() * f64::EPSILON);
+            let of_bound = off / (e.tolerance(case) - e.crossing.slack);
+            tally.distance(if e.cosine >= STEEP { ulps } else { 0.0 }, of_bound);
         }
         let part = contact(case, ray, &hit, &found, tally).filter(|_| asked.left.is_none());
-        if let Some(part) = part {
-            leave(case, ray, &hit, (found[0], part), rng, tally);
-        }
+        next = part.and_then(|part| leave(case, ray, &hit, (found[0], part), rng, tally));
     }
-    all(case, asked, &entries, Some(hit), tally);
+    all(case, asked, entries, Some(hit), tally);
+    next
 }
 
 /// What [`Prepared::all`](lancer_kernel::Prepared::all) and `any` say.
@@ -177,7 +202,8 @@ fn all(case: &Case, asked: &Asked, entries: &[Entry], hit: Option<Hit>, tally: &
     };
     let ahead = hits.iter().find(|h| h.t > 0.0);
     if ahead.map(|h| (h.t, h.item)) != hit.map(|h| (h.t, h.item)) && !ahead.is_some_and(is_open) {
-        tally.complain(case, ray, format!("`nearest` finds {hit:?}, `all` {ahead:?}"));
+        let what = format!("`nearest` finds {hit:?}, `all` {ahead:?}");
+        tally.complain(case, ray, Wrong::Disagreement, what);
     }
     if let Some(hit) = hit {
         let any = |t_max| case.prepared.any(ray, t_max, Which::All);
@@ -187,7 +213,7 @@ fn all(case: &Case, asked: &Asked, entries: &[Entry], hit: Option<Hit>, tally: &
         let (nearer, there) = (any(hit.t), any((hit.t + later).next_up()));
         if nearer || !there {
             let what = format!("nearest is {hit:?}; `any` up to it: {nearer}, with it: {there}");
-            tally.complain(case, ray, what);
+            tally.complain(case, ray, Wrong::Disagreement, what);
         }
     }
     for e in entries.iter().filter(|e| e.is_sure()) {
@@ -197,7 +223,8 @@ fn all(case: &Case, asked: &Asked, entries: &[Entry], hit: Option<Hit>, tally: &
     }
     for h in &hits {
         if !entries.iter().any(|e| e.item == h.item && e.is_found_at(case, h.t)) {
-            tally.fail_at(case, ray, None, "counts among all what is not there", h);
+            let what = format!("counts among all what is not there: {h:?}");
+            tally.complain(case, ray, Wrong::False, what);
         }
     }
     for item in (0..case.item_count()).filter(|&i| case.subject(i).figure.is_closed()) {
@@ -208,7 +235,7 @@ fn all(case: &Case, asked: &Asked, entries: &[Entry], hit: Option<Hit>, tally: &
         let is_clear = own().all(|e| !e.is_at_origin(asked.left));
         if of_item.len() % 2 == 1 || is_clear && (found_ahead + really_ahead) % 2 == 1 {
             let what = format!("closed item {item} is crossed an odd number of times: {of_item:?}");
-            tally.complain(case, ray, what);
+            tally.complain(case, ray, Wrong::Other, what);
         }
     }
 }
@@ -256,7 +283,7 @@ fn contact(
         worst.push(format!("{off:e} off, allowed {bound:e}; normal {turned:e} off"));
     }
     let what = format!("{hit:?} expands to {:?}: {}", surface.point, worst.join(" or "));
-    tally.complain(case, ray, what);
+    tally.complain(case, ray, Wrong::Other, what);
     None
 }
 
@@ -268,7 +295,7 @@ fn leave(
     (e, part): (&Entry, usize),
     rng: &mut Rng,
     tally: &mut Tally,
-) {
+) -> Option<Asked> {
     let surface = case.prepared.expand(ray, hit);
     let direction = any_direction(rng) * power_of_ten(rng, -1.0, 1.0);
     let out = surface.leave(direction);
@@ -277,12 +304,13 @@ fn leave(
     // In the tip of a cone there is no room for that.
     let is_tip = (normal / normal.norm() - surface.normal).norm() > 0.1;
     if is_tip {
-        return;
+        return None;
     }
     if side == 0.0 || goes_out != (side > 0.0) {
         let what = format!("leaving {hit:?} along {direction:?} starts {side:e} off the surface");
-        tally.complain(case, ray, what);
+        tally.complain(case, ray, Wrong::Other, what);
     }
-    let left = Some(Left { item: hit.item, part, by: 2.0 * surface.error });
-    judge(case, &Asked { ray: out, is_easy: false, left }, rng, tally);
+    let goes_out = goes_out && case.subject(hit.item).figure.is_closed();
+    let left = Left { item: hit.item, part, by: 2.0 * surface.error, goes_out };
+    Some(Asked { ray: out, left: Some(left) })
 }

@@ -1,7 +1,7 @@
 //! Random meshes: lumpy balls, boxes in small pieces, and hilly sheets.
 
 use super::facets::Facets;
-use super::sample::{Curve, Patch, Sample, any_direction, between, power_of_ten};
+use super::sample::{Curve, Patch, any_direction, between, power_of_ten};
 use super::subject::Subject;
 use fastrand::Rng;
 use lancer_math::{Point, Vector, unit};
@@ -146,10 +146,12 @@ impl Soup {
         assert_eq!(mesh.dropped(), 0, "figure and mesh have other triangles");
         let (min, max) = mesh.bounds();
         let centre = min + (max - min) * 0.5;
-        Subject {
-            shape: Shape::mesh(Arc::new(mesh), surface).expect("a surface"),
-            figure: Box::new(figure),
-            sample: Sample { patches, curves, centre, size: (max - min).norm() * 0.5 },
-        }
+        let shape = Shape::mesh(Arc::new(mesh), surface);
+        super::subject::subject(
+            shape,
+            figure,
+            (patches, curves),
+            (centre, (max - min).norm() * 0.5),
+        )
     }
 }

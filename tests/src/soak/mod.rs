@@ -1,16 +1,27 @@
 //! The kernel against intersections that are written another way: in numbers
 //! twice as long, from the implicit functions of the shapes, by brute force. No
 //! formula is shared.
+//!
+//! A soak asks any number of random rays, of random scenes of each kind of shape.
+//! All ways on which the kernel can be asked have to give the same bits, and these
+//! have to be right to within stated bounds. An [`Id`] makes a ray again.
 
 mod case;
+mod class;
 mod cone;
 mod convex;
 mod dd;
 mod facets;
 mod figure;
+mod id;
 mod judge;
+mod kind;
 mod mesh;
+mod oracle;
+mod paths;
 mod quartic;
+mod report;
+mod run;
 mod sample;
 mod sheets;
 mod space;
@@ -18,38 +29,7 @@ mod subject;
 mod tally;
 mod torus;
 
-pub use subject::Kind;
-
-use case::Case;
-use fastrand::Rng;
-use judge::{Asked, judge};
-use tally::Tally;
-
-/// What is asked for.
-#[derive(Debug, Clone, Copy)]
-pub struct Settings {
-    /// Chooses other scenes and rays.
-    pub seed: u64,
-    /// How many rays, for all kinds of shapes together.
-    pub rays: u64,
-}
-
-/// Asks rays of scenes of that kind.
-///
-/// # Panics
-/// Where something is wrong.
-pub fn check(kind: Kind, cases: u64, rays: u64) {
-    let mut tally = Tally::default();
-    for number in 0..cases {
-        let case = Case::new(kind, number);
-        for ray in 0..rays {
-            // Its own seed for each ray, whatever the ones before it have used.
-            let mut rng = Rng::with_seed(number << 32 | ray);
-            tally.at = format!("{kind:?}, case {number}, ray {ray}");
-            let (ray, is_easy) = case.ray(&mut rng, ray);
-            judge(&case, &Asked { ray, is_easy, left: None }, &mut rng, &mut tally);
-        }
-    }
-    print!("{kind:?}: ");
-    tally.finish();
-}
+pub use id::{Id, NotAnId};
+pub use kind::Kind;
+pub use report::{Report, band_in_ulps};
+pub use run::{replay, soak};

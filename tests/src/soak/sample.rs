@@ -70,7 +70,7 @@ fn around(rng: &mut Rng, axis: Vector) -> Vector {
 }
 
 impl Patch {
-    fn point(&self, rng: &mut Rng) -> (Point, Vector) {
+    pub(crate) fn point(&self, rng: &mut Rng) -> (Point, Vector) {
         match self {
             Self::Ball(centre, radius) => {
                 let n = any_direction(rng);
@@ -113,18 +113,27 @@ impl Sample {
         self.patches[rng.usize(..self.patches.len())].point(rng)
     }
 
-    /// A point of an edge, often the end of one; of the surface where it has no
-    /// edge.
+    /// A point of an edge; of the surface where it has no edge.
     pub(crate) fn on_edge(&self, rng: &mut Rng) -> Point {
         if self.curves.is_empty() {
             return self.on_surface(rng).0;
         }
         match &self.curves[rng.usize(..self.curves.len())] {
             Curve::Segment([from, to]) => match rng.u8(..4) {
-                0 => *from,
-                1 => *to,
+                0 => from + (to - from) * 0.5,
                 _ => from + (to - from) * rng.f64(),
             },
+            Curve::Circle(centre, axis, radius) => centre + around(rng, *axis) * *radius,
+        }
+    }
+
+    /// The end of an edge, if it has one.
+    pub(crate) fn on_corner(&self, rng: &mut Rng) -> Point {
+        if self.curves.is_empty() {
+            return self.on_surface(rng).0;
+        }
+        match &self.curves[rng.usize(..self.curves.len())] {
+            Curve::Segment(ends) => ends[usize::from(rng.bool())],
             Curve::Circle(centre, axis, radius) => centre + around(rng, *axis) * *radius,
         }
     }

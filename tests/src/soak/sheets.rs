@@ -2,7 +2,7 @@
 
 use super::cone::{Side, Within};
 use super::dd::Dd;
-use super::figure::{BAND, Crossing, Figure};
+use super::figure::{Crossing, Figure, NEAR};
 use super::space::{Line, Long};
 
 /// How far a plane reaches.
@@ -62,7 +62,7 @@ impl Figure for Flat {
             if matches!(self.outline, Outline::Endless) {
                 // It may meet the plane very far away.
                 found.push(Crossing::new(Dd::INFINITY, 0, false, 0.0));
-            } else if off < BAND {
+            } else if off < NEAR {
                 let t = line.nearest_to(self.point);
                 found.push(Crossing::new(t, 0, false, off));
             }
@@ -74,7 +74,7 @@ impl Figure for Flat {
             Outline::Endless => cosine,
             _ => beyond.abs() * cosine / line.scale,
         };
-        if beyond <= 0.0 || margin < BAND {
+        if beyond <= 0.0 || margin < NEAR {
             found.push(Crossing::new(t, 0, beyond <= 0.0, margin));
         }
     }
@@ -131,7 +131,7 @@ impl Figure for Tube {
             let misses = if crosses { to_edge } else { depth } / line.scale;
             if is_there {
                 found.push(Crossing::new(t, 0, true, margin));
-            } else if misses < BAND {
+            } else if misses < NEAR {
                 found.push(Crossing::new(t, 0, false, misses));
             }
         }

@@ -4,35 +4,15 @@ use super::cone::Side;
 use super::convex::{Convex, Face};
 use super::dd::Dd;
 use super::figure::Figure;
+use super::kind::Kind;
 use super::mesh::random_mesh;
 use super::sample::{Curve, Patch, Sample, across, any_direction, between, power_of_ten};
 use super::sheets::{Flat, Outline, Tube};
-use super::space::Long;
+use super::space::{Line, Long};
 use super::torus::Ring;
 use fastrand::Rng;
 use lancer_math::{Point, Vector};
 use lancer_scene::{Colour, Geometry, InvalidField, Shape, Surface};
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
-    Sphere,
-    Plane,
-    Disc,
-    Rectangle,
-    Triangle,
-    Cuboid,
-    Cube,
-    Tetrahedron,
-    Cylinder,
-    OpenCylinder,
-    Cone,
-    OpenCone,
-    Frustum,
-    OpenFrustum,
-    Torus,
-    ClosedMesh,
-    OpenMesh,
-}
 
 /// A shape and what is known of it.
 #[derive(Debug)]
@@ -40,6 +20,13 @@ pub(crate) struct Subject {
     pub(crate) shape: Shape,
     pub(crate) figure: Box<dyn Figure>,
     pub(crate) sample: Sample,
+    /// Whether it reaches beyond the ball of `sample`.
+    is_endless: bool,
+}
+
+/// Cells of two colours, for what is told of their borders.
+pub(crate) fn surface() -> Surface {
+    Surface::new(Colour::GREY).checker(Colour::RED)
 }
 
 fn size(rng: &mut Rng) -> f64 {
@@ -77,7 +64,7 @@ fn segments(points: &[Point]) -> Vec<Curve> {
     pairs.map(|(i, j)| Curve::Segment([points[i], points[j]])).collect()
 }
 
-fn subject(
+pub(crate) fn subject(
     shape: Result<Shape, InvalidField>,
     figure: impl Figure + 'static,
     (patches, curves): (Vec<Patch>, Vec<Curve>),
@@ -85,17 +72,31 @@ fn subject(
 ) -> Subject {
     let shape = shape.expect("its numbers are in range");
     let sample = Sample { patches, curves, centre, size };
-    Subject { shape, figure: Box::new(figure), sample }
+    let is_endless = matches!(shape.geometry, Geometry::Plane(_));
+    Subject { shape, figure: Box::new(figure), sample, is_endless }
 }
 
 impl Subject {
+    /// Whether a line passes it by much more than all roundings.
+    pub(crate) fn is_clear_of(&self, line: &Line) -> bool {
+        if self.is_endless {
+            return false;
+        }
+        let Sample { centre, size, .. } = self.sample;
+        let (to_centre, direction) =
+            (centre - Point::from(line.origin.round()), line.direction.round());
+        let along = to_centre.dot(&direction) / direction.norm_squared();
+        let aside = (to_centre - direction * along).norm();
+        aside > 1.001 * size + 1e-11 * line.scale
+    }
+
     /// Whether it has neither an inside nor the hollow of a tube.
     pub(crate) fn is_flat(&self) -> bool {
         !self.figure.is_closed() && !matches!(self.sample.patches[..], [Patch::Side(..)])
     }
 
     pub(crate) fn random(kind: Kind, rng: &mut Rng) -> Self {
-        let surface = Surface::new(Colour::GREY);
+        let surface = surface();
         match kind {
             Kind::Sphere => {
                 let (centre, radius) = (place(rng), size(rng));
@@ -185,6 +186,7 @@ impl Subject {
             Kind::ClosedMesh | Kind::OpenMesh => {
                 random_mesh(rng, kind == Kind::ClosedMesh).subject(surface)
             }
+            Kind::Mixed => Self::random(Kind::SHAPES[rng.usize(..Kind::SHAPES.len())], rng),
             _ => cone(kind, rng),
         }
     }
@@ -229,14 +231,14 @@ fn tetrahedron(corners: [Point; 4]) -> Subject {
     });
     // The normals are only there to start off the surface: either side will do.
     let patches = opposite.map(|(face, _)| Patch::Triangle(face)).to_vec();
-    let shape = Shape::tetrahedron(corners.map(Into::into), Surface::new(Colour::GREY));
+    let shape = Shape::tetrahedron(corners.map(Into::into), surface());
     let ball = middle_of(&corners);
     let figure = Convex::new(faces.into(), ball);
     subject(shape, figure, (patches, segments(&corners)), ball)
 }
 
 fn cone(kind: Kind, rng: &mut Rng) -> Subject {
-    let surface = Surface::new(Colour::GREY);
+    let surface = surface();
     let (base, radius) = (place(rng), size(rng));
     let top = base + axis(rng);
     let ends = [base.into(), top.into()];

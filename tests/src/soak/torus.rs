@@ -71,7 +71,7 @@ impl Figure for Ring {
             let margin = clearances[i].min(clearances[i + 1]);
             if let Some(x) = zero_between(&quartic, (points[i], points[i + 1])) {
                 found.push(Crossing::new(place(x), 0, true, margin));
-            } else if clearances[i] < super::figure::BAND {
+            } else if clearances[i] < super::figure::NEAR {
                 found.push(Crossing::new(place(points[i]), 0, false, clearances[i]));
             }
         }

@@ -2,6 +2,7 @@
 //! exactly so.
 
 mod page;
+mod soak;
 
 use crate::{Failure, fail};
 use clap::Args;
@@ -31,17 +32,29 @@ pub(crate) struct StabilityArgs {
     #[arg(long, value_name = "ID", conflicts_with_all = ["rays", "leaks", "write"])]
     replay: Option<String>,
 
+    /// Print a line for each class of rays of each kind, too
+    #[arg(long, requires = "rays")]
+    classes: bool,
+
     /// Put the tables into docs/stability.md, in place of those of the same parts
     #[arg(long)]
     write: bool,
 }
 
 pub(crate) fn run(args: &StabilityArgs) -> Result<(), Failure> {
-    if args.rays.is_none() && args.leaks.is_none() && args.replay.is_none() {
+    if let Some(id) = &args.replay {
+        return soak::again(id);
+    }
+    if args.rays.is_none() && args.leaks.is_none() {
         return Err(fail("nothing is asked for: --rays N, --leaks N or --replay ID"));
     }
-    if args.write {
-        page::write("soak", "")?;
+    let mut is_good = true;
+    if let Some(rays) = args.rays {
+        let (section, fine) = soak::run(args, rays)?;
+        is_good &= fine;
+        if args.write {
+            page::write("soak", &section)?;
+        }
     }
-    Ok(())
+    if is_good { Ok(()) } else { Err(fail("not all is as it should be")) }
 }

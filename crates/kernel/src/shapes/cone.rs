@@ -237,22 +237,23 @@ impl Primitive for Barrel {
         let at = stepped(&ray.origin, &self.narrow, crossing.t, &ray.direction);
         let (z, across) = self.split(&at);
         let distance = across.norm();
-        let outward = across / distance;
         let apart = distance > 0.0;
+        // On the axis, where a thin end seen from afar may be hit, all are as good.
+        let outward = if apart { across / distance } else { self.frame.first };
         let (z, radius, normal) = if crossing.part == SIDE {
             let z = z.clamp(0.0, self.length);
             let radius = self.radii[0] + self.slope * z;
             // The slope's own length may be beyond a double; unit() has none of that.
-            let normal = if apart { unit(outward - self.axis * self.slope) } else { None };
+            let has_one = apart || radius > 0.0;
+            let normal = unit(outward - self.axis * self.slope).filter(|_| has_one);
             (z, radius, normal.unwrap_or(-self.axis))
         } else if crossing.part == self.lids[0] {
             (0.0, distance.min(self.radii[0]), -self.axis)
         } else {
             (self.length, distance.min(self.radii[1]), self.axis)
         };
-        let across = if apart { outward * radius } else { Vector::zeros() };
         Contact {
-            point: self.narrow + (self.axis * z + across),
+            point: self.narrow + (self.axis * z + outward * radius),
             error: 8.0 * f64::EPSILON * (self.narrow.coords.amax() + self.size),
             normal,
             shading: normal,
@@ -562,6 +563,22 @@ mod tests {
                 let contact = shape.contact(&from, &crossing);
                 assert_eq!((contact.normal, crossing.part), (-Vector::z(), BASE));
                 assert_eq!(shape.cell(&contact, BASE, &checker), expected, "{x} {y}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_tip_seen_from_afar_is_met_on_the_surface() {
+        let shape = along_z(-1.0, 0.0, [0.25, 0.0], true);
+        for x in [0.0, 1e-300, 1e-12] {
+            for k in 0..40 {
+                let from = ray([x, 0.0, 1e6 + 1e4 * f64::from(k) / 7.0], [0.0, 0.0, -1.0]);
+                let t = from.origin.z + 1e-9 * f64::from(k);
+                let contact = shape.contact(&from, &Crossing { t, part: SIDE });
+                let p = contact.point;
+                let off = libm::hypot(p.x, p.y) + 0.25 * p.z;
+                assert!(off.abs() <= contact.error, "{off:e} {contact:?}");
+                assert_sound(&contact);
             }
         }
     }
