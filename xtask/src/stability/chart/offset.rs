@@ -51,11 +51,11 @@ pub(super) fn panels() -> Vec<Panel> {
     ]
 }
 
-/// A number for each line at each distance.
-fn collected(
-    lines: Vec<Line>,
-    measure: &dyn Fn(f64, &[Line]) -> Vec<Option<f64>>,
-) -> Vec<(Line, Points)> {
+/// A number for each line at a distance, if there is one.
+type Measure<'a> = &'a dyn Fn(f64, &[Line]) -> Vec<Option<f64>>;
+
+/// That at each distance.
+fn collected(lines: Vec<Line>, measure: Measure<'_>) -> Vec<(Line, Points)> {
     let mut found: Vec<(Line, Points)> = lines.iter().map(|l| (*l, Points::new())).collect();
     for x in xs(0.0, 14.0) {
         let values = measure(x, &lines);

@@ -75,7 +75,7 @@ fn side<F: Float>(p: [F; 2], q: [F; 2]) -> F {
     } else {
         first - second
     };
-    if sign < F::ZERO || sign > F::ZERO {
+    if sign != F::ZERO {
         sign
     } else if p[1] == q[1] {
         q[0] - p[0]

@@ -1,16 +1,17 @@
 //! Spheres and planes in lanes: what Lancer asks of a scene that has few of them, and the same by
 //! the textbook's forms with a fixed smallest distance, as fast as they go.
 
-use lancer_integrator::KernelSettings;
+use super::groups::Group;
 use lancer_kernel::lanes::{Lanes, Mask, Real, Vectors, Work};
-use lancer_kernel::{Candidates, Prepared, Rays, Which};
-use lancer_math::{Point, Ray, Vector, unit};
-use lancer_scene::{Geometry, Light, Scene};
+use lancer_kernel::{Prepared, Rays, Which};
+use lancer_math::{Point, Vector, unit};
+use lancer_scene::{Geometry, Scene};
 
 /// What is nearer than this the textbook does not meet.
 const NEAREST: f64 = 1e-9;
 
-/// The scene as the textbook has it.
+/// Shapes as the textbook has them.
+#[derive(Debug, Default)]
 pub(super) struct Book {
     /// Centres and squared radii.
     balls: Vec<(Point, f64)>,
@@ -19,12 +20,15 @@ pub(super) struct Book {
 }
 
 impl Book {
-    /// Of the spheres and planes that stand by themselves.
-    pub(super) fn new(scene: &Scene) -> Self {
-        let mut book = Self { balls: Vec::new(), planes: Vec::new() };
-        for shape in &scene.shapes {
-            match &shape.geometry {
-                Geometry::Sphere(s) => book.balls.push((s.centre.get(), s.radius.get().powi(2))),
+    /// Of some of the spheres and planes that stand by themselves.
+    pub(super) fn new(scene: &Scene, items: impl Iterator<Item = u32>) -> Self {
+        let mut book = Self::default();
+        for item in items {
+            match &scene.shapes[item as usize].geometry {
+                Geometry::Sphere(sphere) => {
+                    let radius = sphere.radius.get();
+                    book.balls.push((sphere.centre.get(), radius * radius));
+                }
                 Geometry::Plane(plane) => {
                     let normal = unit(plane.normal.get()).expect("it is not zero");
                     book.planes.push((normal, normal.dot(&plane.origin.get().coords)));
@@ -96,74 +100,15 @@ fn roots<L: Lanes>(rays: &Rays<L>, lanes: L, centre: &Point, squared: f64) -> (L
     (b, b * b - rays.direction.norm_squared() * c)
 }
 
-/// Rays side by side.
-#[derive(Default)]
-pub(super) struct Batch([Vec<f64>; 6]);
+/// How often each group is asked, so that it is near at hand as in the engine, where it has just
+/// been made.
+pub(super) const REPEATS: usize = 8;
 
-impl Batch {
-    fn push(&mut self, ray: &Ray) {
-        let numbers = ray.origin.coords.iter().chain(ray.direction.iter());
-        self.0.iter_mut().zip(numbers).for_each(|(list, number)| list.push(*number));
-    }
-
-    pub(super) fn len(&self) -> usize {
-        self.0[0].len()
-    }
-
-    #[inline(always)]
-    fn rays<L: Lanes>(&self, lanes: L, at: usize) -> Rays<L> {
-        let [x, y, z, dx, dy, dz] = self.0.each_ref().map(
-            #[inline(always)]
-            |list| &list[at..],
-        );
-        Rays::new(lanes, Vectors::load(lanes, [x, y, z]), Vectors::load(lanes, [dx, dy, dz]))
-    }
-}
-
-/// Rays from the eye, to the lamps from where those arrive, and mirrored there; a multiple of
-/// eight of each.
-pub(super) fn batches(scene: &Scene, [width, height]: [u32; 2]) -> [Batch; 3] {
-    let prepared = Prepared::with(scene, &KernelSettings::default());
-    let mut batches: [Batch; 3] = Default::default();
-    let camera = &scene.camera;
-    let (eye, target) = (camera.origin().get(), camera.target().get());
-    let ahead = target - eye;
-    let right = ahead.cross(&camera.up.get()).normalize();
-    let up = right.cross(&ahead.normalize());
-    let side = camera.plane_width() / f64::from(width);
-    for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
-        let across = (f64::from(x) + 0.5 - f64::from(width) / 2.0) * side;
-        let upward = (f64::from(height) / 2.0 - f64::from(y) - 0.5) * side;
-        let ray = Ray::new(eye, (ahead + right * across + up * upward).normalize());
-        batches[0].push(&ray);
-        let Some(hit) = prepared.nearest(&ray, f64::INFINITY) else { continue };
-        let point = prepared.expand(&ray, &hit);
-        for light in &scene.lights {
-            if let Light::Lamp { point: lamp, .. } = light {
-                batches[1].push(&point.leave(lamp.get() - point.point));
-            }
-        }
-        let d = ray.direction;
-        let mirrored = d - point.normal * (2.0 * d.dot(&point.normal));
-        batches[2].push(&point.leave(mirrored));
-    }
-    for list in batches.iter_mut().flat_map(|batch| &mut batch.0) {
-        list.truncate(list.len() / 8 * 8);
-    }
-    batches
-}
-
-/// Whose forms.
-#[derive(Clone, Copy)]
-pub(super) enum Forms<'a> {
-    Textbook(&'a Book),
-    Ours(&'a Prepared),
-}
-
-/// All rays of a batch: how many of them meet something.
+/// All rays of groups, each [`REPEATS`] times: how many of them meet something.
 pub(super) struct Ask<'a> {
-    pub(super) forms: Forms<'a>,
-    pub(super) batch: &'a Batch,
+    pub(super) groups: &'a [Group],
+    /// Lancer's, or the textbook's forms.
+    pub(super) ours: Option<&'a Prepared>,
     /// Whether there is something before t = 1, instead of what is nearest.
     pub(super) any: bool,
 }
@@ -176,26 +121,28 @@ impl Work for Ask<'_> {
         let all = lanes.first(L::WIDTH);
         let end = lanes.splat(f64::INFINITY);
         let mut met = 0;
-        for at in (0..self.batch.len()).step_by(L::WIDTH) {
-            let rays = self.batch.rays(lanes, at);
-            let among = (&Candidates::ALL, None);
-            let mask = match (self.forms, self.any) {
-                (Forms::Textbook(book), false) => book.nearest(&rays, lanes).lt(end),
-                (Forms::Textbook(book), true) => book.any(&rays, lanes),
-                (Forms::Ours(prepared), false) => {
-                    let hits = prepared.nearest_in_lanes(
-                        &rays,
-                        f64::INFINITY,
-                        all,
-                        (&Candidates::ALL, None),
-                    );
-                    hits.t.lt(end)
-                }
-                (Forms::Ours(prepared), true) => {
-                    prepared.any_in_lanes(&rays, 1.0, all, Which::All, among)
-                }
-            };
-            met += mask.bits().count_ones();
+        for group in self.groups.iter().flat_map(
+            #[inline(always)]
+            |group| std::iter::repeat_n(group, REPEATS),
+        ) {
+            let group = std::hint::black_box(group);
+            let one = group.one_outside();
+            for at in (0..group.len()).step_by(L::WIDTH) {
+                let rays = group.rays(lanes, at);
+                let mask = match (self.ours, self.any) {
+                    (None, false) => group.book.nearest(&rays, lanes).lt(end),
+                    (None, true) => group.book.any(&rays, lanes),
+                    (Some(prepared), false) => {
+                        let among = (&group.among, group.outside(lanes, at));
+                        prepared.nearest_in_lanes(&rays, f64::INFINITY, all, among).t.lt(end)
+                    }
+                    (Some(prepared), true) => {
+                        let among = (&group.among, one);
+                        prepared.any_in_lanes(&rays, 1.0, all, Which::All, among)
+                    }
+                };
+                met += mask.bits().count_ones();
+            }
         }
         met
     }
