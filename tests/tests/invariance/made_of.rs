@@ -3,7 +3,8 @@
 use crate::{PIXELS, bits, differing, picture, scene};
 use lancer_math::{Placement, Vector};
 use lancer_scene::{
-    Camera, Colour, Geometry, Group, InvalidField, Light, Mesh, Placed, Scene, Shape, Surface,
+    Camera, Colour, Direction, Geometry, Group, InvalidField, Light, Mesh, Placed, Scene, Shape,
+    Surface,
 };
 use std::sync::Arc;
 
@@ -85,7 +86,7 @@ fn as_mesh(geometry: &Geometry) -> Option<Mesh> {
         ),
         Geometry::Rectangle(rectangle) => {
             let corner = rectangle.corner().coords;
-            let [a, b] = rectangle.sides().map(|side| side.get());
+            let [a, b] = rectangle.sides().map(Direction::get);
             let corners = [corner, corner + a, corner + a + b, corner + b];
             (corners.map(Into::into).to_vec(), vec![[0, 1, 2], [0, 2, 3]])
         }
