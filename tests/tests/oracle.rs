@@ -54,7 +54,7 @@ fn look() {
         }
         println!(
             "{}: {n} pixels in {:?} (render {:?}), {unsure} unsure, {bad} bad, worst {worst:e}",
-            golden.name(),
+            golden.name,
             start.elapsed(),
             t_render
         );
