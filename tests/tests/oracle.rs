@@ -11,7 +11,7 @@ const BITS: usize = 160;
 const PIXELS: u32 = 24;
 
 /// What the engine may leave out of a pixel.
-const CUTOFF: f64 = 1e-7;
+const CUTOFF: f64 = 1e-8;
 
 /// What the oracle may; more where glass splits rays without end.
 const MISSING: f64 = 1e-3;
