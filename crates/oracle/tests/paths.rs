@@ -19,7 +19,7 @@ fn look(origin: [f64; 3], target: [f64; 3], shapes: Shapes, light: Option<Light>
         builder = builder.light(Ok(light));
     }
     let scene = builder.build().unwrap_or_else(|e| panic!("{e}"));
-    Tracer::new(&scene, BITS, 1e-3, 200).follow(0, 0)
+    Tracer::new(&scene, BITS, 1e-3, 10_000).follow(0, 0)
 }
 
 fn glass(ior: f64) -> Surface {
