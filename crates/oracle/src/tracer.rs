@@ -82,7 +82,8 @@ pub struct Branch {
 pub struct Pixel {
     /// The radiance of its centre's ray.
     pub radiance: Rgb,
-    /// The largest share of a ray that was not followed.
+    /// The sum of the shares of rays that were not followed: where none of those would
+    /// have seen anything brighter than 1, so much is missing at most.
     pub missing: f64,
     /// The least margin of all decisions on the way, each as its own function says;
     /// 0 where two surfaces are too near to each other for doubles.
@@ -97,7 +98,7 @@ pub struct Tracer<'a> {
     scene: &'a Scene,
     world: World<'a>,
     least_share: f64,
-    deepest: u32,
+    most_rays: u32,
 }
 
 /// What is noted while a pixel is followed.
@@ -105,15 +106,15 @@ struct Notes {
     radiance: Rgb,
     missing: f64,
     margin: f64,
+    rays: u32,
 }
 
 impl<'a> Tracer<'a> {
     /// For a scene, with so many bits. Rays are followed if their share of the
-    /// pixel is at least `least_share`, and through no more surfaces than
-    /// `deepest`.
+    /// pixel is at least `least_share`, and no more than `most_rays` of them.
     #[must_use]
-    pub fn new(scene: &'a Scene, bits: usize, least_share: f64, deepest: u32) -> Self {
-        Self { scene, world: World::new(scene, bits), least_share, deepest }
+    pub fn new(scene: &'a Scene, bits: usize, least_share: f64, most_rays: u32) -> Self {
+        Self { scene, world: World::new(scene, bits), least_share, most_rays }
     }
 
     /// The shapes.
@@ -126,12 +127,14 @@ impl<'a> Tracer<'a> {
     #[must_use]
     pub fn follow(&self, x: u32, y: u32) -> Pixel {
         let line = pixel_line(&self.scene.camera, x, y, self.world.bits());
-        let mut notes = Notes { radiance: Rgb::black(), missing: 0.0, margin: f64::INFINITY };
-        let tree = self.branch(Kind::Primary, line, Rgb::white(), 0, &mut notes);
+        let mut notes =
+            Notes { radiance: Rgb::black(), missing: 0.0, margin: f64::INFINITY, rays: 0 };
+        let tree = self.branch(Kind::Primary, line, Rgb::white(), &mut notes);
         Pixel { radiance: notes.radiance, missing: notes.missing, margin: notes.margin, tree }
     }
 
-    fn branch(&self, kind: Kind, line: Line, share: Rgb, depth: u32, notes: &mut Notes) -> Branch {
+    fn branch(&self, kind: Kind, line: Line, share: Rgb, notes: &mut Notes) -> Branch {
+        notes.rays += 1;
         let (world, bits) = (&self.world, self.world.bits());
         let mut way = way(world, &line, None, true);
         notes.margin = notes.margin.min(way.margin);
@@ -163,10 +166,10 @@ impl<'a> Tracer<'a> {
         branch.added = added;
         for (kind, line, share) in next {
             let size = share.to_f64().into_iter().fold(0.0, f64::max);
-            if size >= self.least_share && depth < self.deepest {
-                branch.branches.push(self.branch(kind, line, share, depth + 1, notes));
+            if size >= self.least_share && notes.rays < self.most_rays {
+                branch.branches.push(self.branch(kind, line, share, notes));
             } else {
-                notes.missing = notes.missing.max(size);
+                notes.missing += size;
             }
         }
         branch.stop = Some(stop);

@@ -97,7 +97,7 @@ fn frusta_and_cones() {
 /// Nearly parallel to a generator: the near root keeps all its digits.
 #[test]
 fn c4_generators_turned_a_little() {
-    let half = 0.707_106_781_186_547_6;
+    let half = std::f64::consts::FRAC_1_SQRT_2;
     for (z, near, far) in [
         (
             0.707_813_887_967_734,

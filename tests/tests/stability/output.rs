@@ -58,7 +58,7 @@ fn o1_a_bad_pixel_spoils_no_other() {
 fn o1_a_bad_pixel_does_not_change_the_exposure() {
     let mut values: Vec<[f32; 3]> = (0..400_u16).map(|i| [f32::from(i) / 100.0; 3]).collect();
     let stops = |values: &[[f32; 3]]| {
-        let mut meter = LightMeter::new();
+        let mut meter = LightMeter::new(values.len() as u64);
         meter.see(values);
         meter.stops()
     };
