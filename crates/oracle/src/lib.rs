@@ -21,20 +21,30 @@
 //! ```
 #![forbid(unsafe_code)]
 
+mod camera;
 mod crossing;
+mod light;
 mod line;
 mod number;
+mod optics;
+mod pattern;
 mod polynomial;
 mod quadratic;
 mod shapes;
+mod stops;
+mod tracer;
 mod vector;
 mod world;
 
+pub use camera::pixel_line;
 pub use crossing::{Crossing, Crossings, Passage};
 pub use line::{Line, Space};
 pub use number::Number;
+pub use optics::{Refraction, fresnel, reflect, refract, sheet};
 pub use polynomial::{Polynomial, RealRoot};
 pub use shapes::{crossings, inside};
+pub use stops::Stop;
+pub use tracer::{Branch, Kind, Pixel, Rgb, Tracer};
 pub use vector::Triple;
 pub use world::{Hit, Hits, Item, World};
 

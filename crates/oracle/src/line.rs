@@ -106,6 +106,12 @@ impl Space {
         &(&a.times(x) + &b.times(y)) + &c.times(z)
     }
 
+    /// The local normal, of any length, of a direction in the world.
+    #[must_use]
+    pub fn local_normal(&self, n: &Triple) -> Triple {
+        Triple(self.columns.each_ref().map(|column| column.dot(n)))
+    }
+
     /// A length of the shape's own space, stretched.
     #[must_use]
     pub fn length(&self, length: f64) -> Number {

@@ -121,6 +121,30 @@ impl Number {
         (Self::kept(value(sine)), Self::kept(value(cosine)))
     }
 
+    /// The power of a number above 0.
+    ///
+    /// # Panics
+    /// Where the number is not above 0.
+    #[must_use]
+    pub fn power(&self, exponent: &Self, bits: usize) -> Self {
+        let value = Context::<HalfEven>::new(bits).powf(self.repr(), exponent.repr(), None);
+        Self::kept(value.expect("a power of a number above 0").value())
+    }
+
+    /// The angle of the place (`x`, this) in degrees, from -180 to 180; 0 where
+    /// both are 0.
+    #[must_use]
+    pub fn turn(&self, x: &Self, bits: usize) -> Self {
+        let angle = Context::<HalfEven>::new(bits).atan2_unit(self.repr(), x.repr(), 360, None);
+        angle.map_or_else(|_| Self::zero(), |angle| Self::kept(angle.value()))
+    }
+
+    /// The largest whole number that is not above it.
+    #[must_use]
+    pub fn floor(&self) -> Self {
+        Self::kept(self.0.floor())
+    }
+
     /// The nearest double.
     #[must_use]
     pub fn to_f64(&self) -> f64 {

@@ -96,7 +96,7 @@ impl Polynomial {
         while rest.0.len() >= divisor.0.len() && !rest.is_zero() {
             let shift = rest.0.len() - divisor.0.len();
             let factor = rest.leading() * &turn;
-            for c in quotient.iter_mut() {
+            for c in &mut quotient {
                 *c = &*c * &size;
             }
             quotient[shift] = &quotient[shift] + &factor;

@@ -27,7 +27,7 @@ fn s1_small_spheres_far_away() {
     for distance in [1e3, 1e5, 1e7, 1e8, 1e9] {
         let found = meet(sphere([0.0; 3], 1.0), [0.9, 0.0, -distance], [0.0, 0.0, 1.0]);
         assert_eq!(found.list.len(), 2);
-        assert_eq!(found.list[0].t.to_f64(), distance - 0.435_889_894_354_067_327);
+        assert_eq!(found.list[0].t.to_f64(), distance - 0.435_889_894_354_067_3);
         assert_eq!(found.list[0].passage, Passage::Enters);
     }
     let found = meet(sphere([0.0; 3], 0.1), [-1e7, 0.095, 0.0], [1.0, 0.0, 0.0]);
@@ -36,15 +36,15 @@ fn s1_small_spheres_far_away() {
 
 #[test]
 fn s2_standing_on_a_planet() {
-    let (sine, cosine) = 2.0_f64.to_radians().sin_cos();
+    let (sine, cosine) = (0.034_899_496_702_500_97, 0.999_390_827_019_095_8);
     let found = meet(sphere([0.0; 3], 6.371e6), [0.0, 6.371e6 + 1.7, 0.0], [cosine, -sine, 0.0]);
-    assert!((found.list[0].t.to_f64() / 48.716_634_703_613_641_091 - 1.0).abs() < 1e-14);
+    assert!((found.list[0].t.to_f64() / 48.716_634_703_613_64 - 1.0).abs() < 1e-14);
 }
 
 #[test]
 fn s3_the_eye_at_the_origin_of_a_huge_sphere() {
     let found = meet(sphere([0.0, -1e10, 0.0], 1e10), [0.0, 0.001, 0.0], [1.0, -1.0, 0.0]);
-    assert!((found.list[0].t.to_f64() / 0.001_000_000_000_000_050_02 - 1.0).abs() < 1e-15);
+    assert!((found.list[0].t.to_f64() / 0.001_000_000_000_000_05 - 1.0).abs() < 1e-15);
 }
 
 #[test]
