@@ -5,6 +5,7 @@
 pub mod generated;
 pub mod golden;
 pub mod html;
+pub mod moved;
 pub mod paths;
 pub mod plain;
 pub mod random;

@@ -51,7 +51,8 @@ const CHECKERS: &str = "
 
 The attribute `chess` lays a checker of two colours on a shape. Cells are counted along two coordinates of the shape's own, and both sides of
 zero differ; the second colour is where one count is odd and the other is not. The attribute `chess-size` is the side of a cell: a length, or degrees along a
-coordinate that is an angle. An angle must divide 180, so that the colours alternate all around.
+coordinate that is an angle. An angle must divide 180, so that the colours alternate all around. What is below a border by no more than rounding
+belongs to the cell above it; beyond 2^52 cells, where numbers do not tell them apart, the mean of both colours is shown.
 
 The two axes across a normal or an axis n are n × x (n × y where n is along x), made a unit vector, and n times that one, × being the cross product; angles around n are
 counted from the first towards the second.

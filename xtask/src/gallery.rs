@@ -13,7 +13,8 @@ const HEAD: &str = "\
 <!-- Written by `cargo xtask docs` from the settings beside the scenes. -->
 
 Each shows one thing. The pictures are the goldens of the tests, so they are what the present program makes; scenes render larger by
-themselves. [invalid](invalid) holds scenes with mistakes; the messages for them are in tests/snapshots/diagnostics.
+themselves. [invalid](invalid) holds scenes with mistakes; the messages for them are in tests/snapshots/diagnostics. [stability](stability)
+holds scenes that are hard to get right, with the right values.
 ";
 
 /// Writes the page, or says whether it is up to date.

@@ -1,6 +1,7 @@
 //! How much light a picture is shown with, in stops: one more doubles what is
 //! shown of the same radiance.
 
+use crate::Film;
 use std::ops::AddAssign;
 use std::sync::LazyLock;
 
@@ -38,17 +39,24 @@ pub fn exposure_factor(stops: f64) -> f64 {
 /// back the number that was printed gets the same picture.
 ///
 /// The smaller a value, the more steps of 1/64 stop it takes, so it is enough to count
-/// the pixels by their steps.
+/// the pixels by their steps. Where more pixels than may be over-exposed in the whole
+/// frame are brighter than a pixel, its own steps do not matter.
 #[derive(Debug, Clone)]
 pub struct LightMeter {
-    /// The lit pixels of each number of steps, from [`FEWEST`] on. Neighbours are mostly
-    /// alike, and adding to a number that was added to just now has to wait for that: so
-    /// each has several, which take turns.
-    counts: Vec<[u64; SIDES]>,
+    /// The lit pixels of each number of steps, from [`FEWEST`] on.
+    counts: Vec<u64>,
+    /// Other lit pixels, which are so dark that their steps do not matter.
+    dark: u64,
+    /// How many pixels may be over-exposed, at most.
+    most: u64,
+    /// As few steps as can be, up to which more than `most` have been counted; all, as
+    /// long as these are not.
+    last: usize,
+    /// How many have been counted up to there.
+    counted: u64,
+    /// What is no brighter takes more steps than that.
+    floor: f32,
 }
-
-/// How many numbers take turns.
-const SIDES: usize = 4;
 
 /// The steps of the largest numbers: none reaches 2^128.
 const FEWEST: i32 = -128 * STEPS;
@@ -56,51 +64,87 @@ const FEWEST: i32 = -128 * STEPS;
 const MOST: i32 = 149 * STEPS;
 
 impl LightMeter {
-    /// One that has seen no pixel yet.
+    /// One that has seen no pixel yet, of a frame of at most so many.
     #[must_use]
-    pub fn new() -> Self {
-        Self { counts: vec![[0; SIDES]; (MOST - FEWEST + 1) as usize] }
+    pub fn new(pixels: u64) -> Self {
+        Self {
+            counts: vec![0; (MOST - FEWEST + 1) as usize],
+            dark: 0,
+            most: pixels / ONE_IN,
+            last: 0,
+            counted: 0,
+            floor: 0.0,
+        }
     }
 
     /// Takes in these pixels.
     pub fn see(&mut self, pixels: &[[f32; 3]]) {
+        if Film::peak(pixels) <= self.floor {
+            self.dark += pixels.iter().map(|pixel| u64::from(peak(pixel) > 0.0)).sum::<u64>();
+            return;
+        }
         let steps = Steps::table();
-        for (pixel, side) in pixels.iter().zip((0..SIDES).cycle()) {
-            // As `Film::peak` has it.
-            let peak = pixel.iter().fold(0.0, |peak, v| if *v > peak { *v } else { peak });
+        for pixel in pixels {
+            let peak = peak(pixel);
             // Above 0 and finite: the bits of such numbers are ordered as they are.
-            if peak.to_bits().wrapping_sub(1) < f32::INFINITY.to_bits() - 1 {
-                self.counts[(steps.of(peak) - FEWEST) as usize][side] += 1;
+            if peak.to_bits().wrapping_sub(1) >= f32::INFINITY.to_bits() - 1 {
+                continue;
             }
+            if peak <= self.floor {
+                self.dark += 1;
+                continue;
+            }
+            let index = (steps.of(peak) - FEWEST) as usize;
+            self.counts[index] += 1;
+            if index <= self.last || self.counted <= self.most {
+                self.counted += 1;
+                self.last = self.last.max(index);
+            }
+        }
+        self.forget_the_dark();
+    }
+
+    /// Raises the floor as far as there are enough pixels above it.
+    fn forget_the_dark(&mut self) {
+        let before = self.last;
+        while self.counted.saturating_sub(self.counts[self.last]) > self.most {
+            self.counted -= self.counts[self.last];
+            self.last -= 1;
+        }
+        if self.last != before {
+            let steps = f64::from(self.last as i32 + FEWEST + 1);
+            // Less by more than the power is rounded.
+            let floor = exposure_factor(-steps / f64::from(STEPS)) * (1.0 - 1e-6);
+            self.floor = (floor as f32).next_down();
         }
     }
 
     /// The exposure for all pixels that it has seen, in stops.
     #[must_use]
     pub fn stops(&self) -> f64 {
-        let over_exposed = self.counts.iter().flatten().sum::<u64>() / ONE_IN;
+        let over_exposed = (self.counts.iter().sum::<u64>() + self.dark) / ONE_IN;
         let mut brighter = 0;
         let white = self.counts.iter().position(|count| {
-            brighter += count.iter().sum::<u64>();
+            brighter += count;
             brighter > over_exposed
         });
         white.map_or(0.0, |index| f64::from(index as i32 + FEWEST) / f64::from(STEPS))
     }
 }
 
-impl Default for LightMeter {
-    fn default() -> Self {
-        Self::new()
-    }
+/// As [`Film::peak`] has it.
+#[inline]
+fn peak(pixel: &[f32; 3]) -> f32 {
+    pixel.iter().fold(0.0, |peak, v| if *v > peak { *v } else { peak })
 }
 
 impl AddAssign<&Self> for LightMeter {
+    /// Both are of the same frame.
     fn add_assign(&mut self, other: &Self) {
-        for (count, more) in
-            self.counts.as_flattened_mut().iter_mut().zip(other.counts.as_flattened())
-        {
+        for (count, more) in self.counts.iter_mut().zip(&other.counts) {
             *count += more;
         }
+        self.dark += other.dark;
     }
 }
 
@@ -194,7 +238,7 @@ mod tests {
 
     /// The stops for pixels with these largest components.
     fn auto_stops(values: &[f32]) -> f64 {
-        let mut meter = LightMeter::new();
+        let mut meter = LightMeter::new(values.len() as u64);
         meter.see(&values.iter().map(|v| [0.0, *v, v / 2.0]).collect::<Vec<_>>());
         meter.stops()
     }
@@ -322,20 +366,54 @@ mod tests {
         for case in 0..50 {
             let values: Vec<_> =
                 numbers(case, 1000, -6.0, 6.0).into_iter().map(|v| [v, 0.1, 0.0]).collect();
-            let mut whole = LightMeter::new();
+            let mut whole = LightMeter::new(1000);
             whole.see(&values);
-            let mut sum = LightMeter::default();
+            let mut sum = LightMeter::new(1000);
             for part in values.chunks(1 + case as usize * 20) {
-                let mut meter = LightMeter::new();
+                let mut meter = LightMeter::new(1000);
                 meter.see(part);
                 sum += &meter;
             }
             assert_eq!(sum.stops(), whole.stops(), "case {case}");
-            let pixels = |meter: LightMeter| -> Vec<u64> {
-                meter.counts.iter().map(|sides| sides.iter().sum()).collect()
-            };
-            assert_eq!(pixels(sum), pixels(whole), "case {case}");
+            assert_eq!(sum.counts, whole.counts, "case {case}");
         }
+    }
+
+    /// Pixels that are taken in bit by bit, by several meters, so that most are found to be
+    /// too dark to matter; against a meter that forgets nothing.
+    #[test]
+    fn what_is_forgotten_does_not_matter() {
+        let mut forgotten = 0;
+        for case in 0..60 {
+            let (low, high) =
+                [(-6.0, 6.0), (-149.0, -140.0), (-0.1, 0.1), (-149.0, 128.0)][case % 4];
+            let mut values = numbers(case as u64, 20_000, low, high);
+            match case % 3 {
+                0 => values.sort_by(f32::total_cmp),
+                1 => values.sort_by(|a, b| b.total_cmp(a)),
+                _ => {}
+            }
+            values[case * 7] = [0.0, f32::NAN, f32::INFINITY, -1.0][case / 2 % 4];
+            let values: Vec<_> = values.into_iter().map(|v| [0.0, v / 3.0, v]).collect();
+            let mut all = LightMeter::new(u64::MAX);
+            all.see(&values);
+            let mut meters = [LightMeter::new(20_000), LightMeter::new(20_000)];
+            for (k, part) in values.chunks(1 + case * 10).enumerate() {
+                // Either may also be shown more after it was added to.
+                if k == 30 {
+                    let [first, second] = &mut meters;
+                    *first += second;
+                    *second = LightMeter::new(20_000);
+                }
+                meters[k % 2].see(part);
+            }
+            let [first, second] = &mut meters;
+            *first += second;
+            assert_eq!(first.stops(), all.stops(), "case {case}");
+            assert_eq!(all.dark, 0);
+            forgotten += first.dark;
+        }
+        assert!(forgotten > 200_000, "{forgotten}");
     }
 
     /// On either side of each step, against the definition.

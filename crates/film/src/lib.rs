@@ -24,7 +24,7 @@
 //! let frame = Size::new(3, 1);
 //! let mut film = Film::new(frame, frame.window(), Display::Exposed)?;
 //! film.put(frame.window(), &[[4.0, 3.0, 2.0], [0.0, 0.0, 0.0], [0.1, 0.5, 0.1]]);
-//! let mut meter = LightMeter::new();
+//! let mut meter = LightMeter::new(3);
 //! meter.see(film.pixels());
 //! film.set_stops(meter.stops());
 //! assert_eq!(film.stops(), Some(-2.0));

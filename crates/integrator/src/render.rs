@@ -143,7 +143,7 @@ fn fill(
         engine: engine.name(),
         tracer: &*tracer,
         settings,
-        metered: is_whole && showing == Showing::AutoExposed,
+        metered: (is_whole && showing == Showing::AutoExposed).then(|| frame.window().pixels()),
         pixels: to_do.pixels(),
         pixels_done: AtomicU64::new(0),
     };
@@ -228,8 +228,8 @@ struct Found {
 }
 
 impl Found {
-    fn new(metered: bool) -> Self {
-        let meter = metered.then(LightMeter::new);
+    fn new(metered: Option<u64>) -> Self {
+        let meter = metered.map(LightMeter::new);
         Self { counts: RayCounts::default(), peak: 0.0, meter }
     }
 }
@@ -249,8 +249,8 @@ struct Work<'a> {
     engine: &'a str,
     tracer: &'a dyn Tracer,
     settings: &'a RenderSettings<'a>,
-    /// Whether the exposure depends on the pixels.
-    metered: bool,
+    /// If the exposure depends on the pixels, how many there are in the frame.
+    metered: Option<u64>,
     /// How many pixels there are to do.
     pixels: u64,
     pixels_done: AtomicU64,

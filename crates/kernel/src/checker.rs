@@ -1,22 +1,64 @@
 //! Cells of a checker along one coordinate, and of two together.
+//!
+//! A line of pixels may lie exactly on a border, where rounding would tell at random on
+//! which side of it each is. So what is no farther below a border than the error of its
+//! point belongs to the cell above it, wherever the scene is and from whichever side it
+//! is seen.
 
 use crate::lanes::{Lanes, Mask, Real, Vectors};
 use crate::primitive::Cell;
 
 const LARGEST: f64 = 4_503_599_627_370_496.0; // 2^52
 
-/// Whether floor(x) is odd; `None` where x is so large that doubles have no
-/// fractions, or not a number.
+/// The error of a point along a surface, in error bounds of its distance from it: as much
+/// as where a ray grazes it at a slope of 1 in 16, and more than is ever seen.
+const ALONG: f64 = 16.0;
+
+/// Never more than a millionth of a cell: beyond, borders are as rough as points are.
+const MOST_SLACK: f64 = 1.0 / 1_048_576.0;
+
+/// How far below a border coordinates belong to the cell above it, in cells of that
+/// length, by the error bound of their point.
 #[inline]
-fn odd(x: f64) -> Option<bool> {
-    // The remainder is exact.
-    (x.abs() <= LARGEST).then(|| libm::floor(x) % 2.0 != 0.0)
+pub(crate) fn slack(error: f64, length: f64) -> f64 {
+    let slack = error * (ALONG / length);
+    if slack < MOST_SLACK { slack } else { MOST_SLACK }
 }
 
-/// The cell at two coordinates, each in cells.
+/// The same of cells that are so many degrees wide, around a circle of that radius. No
+/// more than 2^-18 degrees, less than what [`on_globe`] leaves open.
 #[inline]
-pub(crate) fn cell(i: f64, j: f64) -> Cell {
-    match (odd(i), odd(j)) {
+pub(crate) fn slack_around(error: f64, radius: f64, angle: f64) -> f64 {
+    const MOST: f64 = 1.0 / 262_144.0;
+    let degrees = (error * (ALONG / radius)).to_degrees();
+    let degrees = if degrees < MOST { degrees } else { MOST };
+    degrees / angle
+}
+
+/// The same as [`slack`] in lanes, to the bit.
+#[inline(always)]
+pub(crate) fn slacks<L: Lanes>(lanes: L, error: L::Real, length: f64) -> L::Real {
+    let slack = error * (ALONG / length);
+    let most = lanes.splat(MOST_SLACK);
+    slack.lt(most).select(slack, most)
+}
+
+/// Whether the cell of x is odd: floor(x), or one more where x is no farther than
+/// `slack` below that. `None` where x is so large that doubles have no fractions, or not
+/// a number.
+#[inline]
+fn odd(x: f64, slack: f64) -> Option<bool> {
+    let below = libm::floor(x);
+    let above = below + 1.0;
+    let cell = if above - x <= slack { above } else { below };
+    // The remainder is exact.
+    (x.abs() <= LARGEST).then(|| cell % 2.0 != 0.0)
+}
+
+/// The cell at two coordinates, each in cells, with what is how far below a border on it.
+#[inline]
+pub(crate) fn cell([i, j]: [f64; 2], [along_i, along_j]: [f64; 2]) -> Cell {
+    match (odd(i, along_i), odd(j, along_j)) {
         (Some(i), Some(j)) if i == j => Cell::First,
         (Some(_), Some(_)) => Cell::Second,
         _ => Cell::Mixed,
@@ -32,12 +74,18 @@ pub struct LaneCells<M> {
     pub certain: M,
 }
 
-/// The cells at two coordinates, each in cells: certain where neither is mixed.
+/// The cells at two coordinates, each in cells, with what is how far below a border on it:
+/// certain where neither is mixed.
 #[inline(always)]
-pub(crate) fn cells<L: Lanes>(lanes: L, i: L::Real, j: L::Real) -> LaneCells<L::Mask> {
+pub(crate) fn cells<L: Lanes>(
+    lanes: L,
+    i: L::Real,
+    j: L::Real,
+    slack: L::Real,
+) -> LaneCells<L::Mask> {
     let largest = lanes.splat(LARGEST);
     let certain = i.abs().le(largest) & j.abs().le(largest);
-    let [i, j] = [odd_lanes(i), odd_lanes(j)];
+    let [i, j] = [odd_lanes(i, slack), odd_lanes(j, slack)];
     LaneCells { second: (i & !j) | (j & !i), certain }
 }
 
@@ -67,7 +115,7 @@ pub(crate) fn on_globe<L: Lanes>(
     };
     // Where a turn begins there is a border, whole number or not.
     let begun = longitude.gt(lanes.splat(NEAR)) & longitude.lt(lanes.splat(360.0 - NEAR));
-    let LaneCells { second, certain } = cells(lanes, i, j);
+    let LaneCells { second, certain } = cells(lanes, i, j, lanes.splat(0.0));
     LaneCells { second, certain: certain & inside(i) & inside(j) & begun }
 }
 
@@ -100,10 +148,12 @@ fn about_turn<L: Lanes>(lanes: L, y: L::Real, x: L::Real) -> L::Real {
     y.lt(zero).select(-degrees + 360.0, degrees)
 }
 
-/// Whether floor(x) is odd.
+/// Whether the cell of x is odd.
 #[inline(always)]
-fn odd_lanes<R: Real>(x: R) -> R::Mask {
-    let half = x.floor() * 0.5;
+fn odd_lanes<R: Real>(x: R, slack: R) -> R::Mask {
+    let below = x.floor();
+    let above = below + 1.0;
+    let half = (above - x).le(slack).select(above, below) * 0.5;
     !half.floor().eq(half)
 }
 
@@ -141,12 +191,36 @@ mod tests {
             (f64::INFINITY, None),
             (f64::NAN, None),
         ] {
-            assert_eq!(odd(x), expected, "{x}");
+            assert_eq!(odd(x, 0.0), expected, "{x}");
         }
+        let cell = |i, j| cell([i, j], [0.0; 2]);
         assert_eq!(cell(0.5, 0.5), Cell::First);
         assert_eq!(cell(-0.5, 0.5), Cell::Second);
         assert_eq!(cell(-0.5, 1.5), Cell::First);
         assert_eq!(cell(1e300, 0.0), Cell::Mixed);
+    }
+
+    #[test]
+    fn what_is_hardly_below_a_border_is_on_it() {
+        let slack = slack(f64::EPSILON, 1.0);
+        assert_eq!(slack, 16.0 * f64::EPSILON);
+        for border in [-3.0, -1.0, 0.0, 1.0, 2.0, 7.0] {
+            let of = |x: f64| {
+                let lane = odd_lanes::<<One as Lanes>::Real>(One.splat(x), One.splat(slack));
+                assert_eq!(odd(x, slack), Some(lane.any()), "{x}");
+                lane.any()
+            };
+            let expected = border % 2.0 != 0.0;
+            for off in [0.0, 1e-16, 1e-15, 3e-15] {
+                assert_eq!(of(border - off), expected, "{border} - {off}");
+                assert_eq!(of(border + off), expected, "{border} + {off}");
+            }
+            assert_eq!(of(border - 1e-14), !expected, "{border}");
+        }
+        // Neither too long nor no number at all.
+        assert_eq!(super::slack(1.0, 1.0), MOST_SLACK);
+        assert_eq!(super::slack(f64::NAN, 1.0), MOST_SLACK);
+        assert_eq!(super::slack(0.0, 5e-324), MOST_SLACK);
     }
 
     #[test]
@@ -166,7 +240,7 @@ mod tests {
             let n = v / v.norm();
             let angle = [90.0 / std::f64::consts::PI, 10.0, 0.37, 50.0, 180.0][case % 5];
             let latitude = libm::atan2(n.z, libm::hypot(n.x, n.y)).to_degrees();
-            let expected = cell(turn(n.x, n.y) / angle, latitude / angle);
+            let expected = cell([turn(n.x, n.y) / angle, latitude / angle], [0.0; 2]);
             let found = on_globe(One, &Vectors::splat(One, &n), angle);
             if found.certain.any() {
                 assert_eq!(found.second.any(), expected == Cell::Second, "{n:?} {angle}");

@@ -43,6 +43,33 @@
 //! # Ok::<(), lancer_scene::InvalidScene>(())
 //! ```
 //!
+//! # Doubtful cases
+//!
+//! Each has one answer, whatever the number of lanes and whatever else is in the scene:
+//!
+//! - A hit is ahead, 0 < t, and finite. An origin exactly on a surface does not meet it
+//!   there; one that leaves by [`SurfacePoint::leave`] does not either, and meets what is
+//!   farther off than three error bounds. There is no other smallest distance, and no
+//!   largest one.
+//! - Faces, edges, rims and corners belong to their shape: a ray in a face of a box or
+//!   along an edge is inside of it, and so is one along the side of a cylinder, but not one
+//!   in the side of a cone. Planes and other flat shapes are not met by rays in them. Zero components of directions mean the same
+//!   with either sign.
+//! - A line crosses a closed shape an even number of times. Where it touches, in exact
+//!   arithmetic, there is a pair of crossings or none, as rounding has it: within about
+//!   the root of the precision of doubles, and never one alone. So it is at the inner
+//!   equator of a ring, in the middle of one without a hole, and at an apex.
+//! - Of hits at the same t that of the first item is the nearest. Faces in one place that
+//!   are planes across an axis, faces of boxes or the same shape twice are at the same t; others
+//!   may be apart by some units in the last place, and the nearer one is met.
+//! - A mesh is met at an edge or a vertex by exactly one of the triangles around, where it
+//!   is not folded there. A triangle seen edge on is not met.
+//! - The normal at an apex is that of the side that faces the ray; with a direction along
+//!   the axis, of one side that is always the same.
+//! - What is not a number misses, and so does what leaves the range of doubles: spheres
+//!   with radii outside of about 1e-145 to 1e154, and other round shapes beyond the range in which
+//!   sixth powers of lengths are numbers.
+//!
 //! Two small programs of that kind are among the examples: `ambient_occlusion`
 //! bakes into a mesh how much of the sky its vertices see, and `line_of_sight`
 //! answers whether hills hide one point from another.
@@ -64,7 +91,7 @@ pub use checker::LaneCells;
 use crossing::Crossing;
 pub mod lanes;
 pub use hit::{Hit, SurfacePoint};
-pub use listed::{Candidates, Goal, LaneHits, LanePoints};
+pub use listed::{Candidates, Goal, LaneHits, LanePoints, ListedShape};
 pub use prepared::{Prepared, Which};
 pub use rays::Rays;
 pub use settings::{Culling, KernelSettings};

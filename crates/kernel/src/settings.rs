@@ -29,6 +29,9 @@ pub struct Culling {
     pub shared_glow: bool,
     /// Rays of large batches are sorted before they are followed.
     pub sorted_rays: bool,
+    /// Where products alone show that a ray meets a sphere, or misses it, or reaches a plane
+    /// too late, the quotients and roots that say where are not formed.
+    pub plain_cases: bool,
 }
 
 impl Culling {
@@ -40,6 +43,7 @@ impl Culling {
         full_mirrors: false,
         shared_glow: false,
         sorted_rays: false,
+        plain_cases: false,
     };
 
     /// What cannot matter is left out.
@@ -50,19 +54,21 @@ impl Culling {
         full_mirrors: true,
         shared_glow: true,
         sorted_rays: true,
+        plain_cases: true,
     };
 
     /// The switches by name, each with everything on but this one.
     #[must_use]
     pub fn without_each() -> Vec<(&'static str, Self)> {
         type Switch = fn(&mut Culling) -> &mut bool;
-        let switches: [(&str, Switch); 6] = [
+        let switches: [(&str, Switch); 7] = [
             ("tile_candidates", |c| &mut c.tile_candidates),
             ("shadow_candidates", |c| &mut c.shadow_candidates),
             ("idle_planes", |c| &mut c.idle_planes),
             ("full_mirrors", |c| &mut c.full_mirrors),
             ("shared_glow", |c| &mut c.shared_glow),
             ("sorted_rays", |c| &mut c.sorted_rays),
+            ("plain_cases", |c| &mut c.plain_cases),
         ];
         let without = |(name, switch): (&'static str, Switch)| {
             let mut culling = Self::ALL;

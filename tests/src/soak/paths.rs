@@ -360,7 +360,8 @@ impl InRegisters<'_> {
                 differ.push((i, format!("any before {goal:?} is not {expected}")));
             }
         }
-        if let Some(points) = prepared.points_in_lanes(&rays, lanes.splat(hit.t), hit.item) {
+        if let Some(shape) = prepared.shape_in_lanes(hit.item) {
+            let points = shape.points(&rays, lanes.splat(hit.t));
             let point: Point = points.point.lane(0).into();
             let (error, normal): (f64, Vector) = (points.error.lane(0), points.normal.lane(0));
             let alone = prepared.expand(ray, &hit);

@@ -16,6 +16,11 @@ impl Samples {
         median(self.0.clone())
     }
 
+    /// The least, which other work on the machine disturbs least.
+    pub(crate) fn least(&self) -> f64 {
+        self.0.iter().copied().fold(f64::INFINITY, f64::min)
+    }
+
     /// The median of how many times longer this took than something else, run
     /// by run: both were slowed down alike by what else the machine did.
     pub(crate) fn times(&self, other: &Self) -> f64 {

@@ -1,13 +1,13 @@
 //! `cargo run --release -p xtask -- bench`: how fast this is, in tables; and
 //! how many instructions it takes, held against what is on record.
 
-mod clock;
+pub(crate) mod clock;
 mod counts;
 mod culling;
 mod embree;
 mod judge;
 mod machine;
-mod page;
+pub(crate) mod page;
 mod peers;
 mod pictures;
 mod process;

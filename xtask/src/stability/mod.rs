@@ -1,6 +1,8 @@
 //! `cargo xtask stability`: asks many rays and compares the answers with what is
 //! exactly so.
 
+mod chart;
+mod cost;
 mod leaks;
 mod page;
 mod soak;
@@ -20,6 +22,14 @@ pub(crate) struct StabilityArgs {
     /// LANCER_MESHES names its folder
     #[arg(long, value_name = "N")]
     leaks: Option<u64>,
+
+    /// Draw where methods fail: docs/stability/*.svg
+    #[arg(long)]
+    chart: bool,
+
+    /// Measure what the forms of the textbook would save (build with --release)
+    #[arg(long)]
+    cost: bool,
 
     /// Another seed gives other scenes and rays
     #[arg(long, default_value_t = 1)]
@@ -46,8 +56,22 @@ pub(crate) fn run(args: &StabilityArgs) -> Result<(), Failure> {
     if let Some(id) = &args.replay {
         return soak::again(id);
     }
-    if args.rays.is_none() && args.leaks.is_none() {
-        return Err(fail("nothing is asked for: --rays N, --leaks N or --replay ID"));
+    if args.rays.is_none() && args.leaks.is_none() && !args.chart && !args.cost {
+        return Err(fail(
+            "nothing is asked for: --rays N, --leaks N, --chart, --cost or --replay ID",
+        ));
+    }
+    if args.chart {
+        let section = chart::run()?;
+        if args.write {
+            page::write("chart", &section)?;
+        }
+    }
+    if args.cost {
+        let section = cost::run()?;
+        if args.write {
+            page::write("cost", &section)?;
+        }
     }
     let mut is_good = true;
     if let Some(rays) = args.rays {

@@ -94,7 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn a_medium_takes_away_by_the_length() {
+    fn d7_a_medium_takes_away_by_the_length() {
         let glass = Surface::glass(1.5).and_then(|glass| glass.absorption([0.0, 0.5, 2.0]));
         let medium = glass.expect("in range").medium;
         let [red, green, blue] = transmittance(&medium, 3.0);
@@ -102,6 +102,13 @@ mod tests {
         assert!((green - libm::exp(-1.5)).abs() < 1e-16);
         assert!((blue - libm::exp(-6.0)).abs() < 1e-17);
         assert_eq!(transmittance(&medium, f64::INFINITY), [1.0, 0.0, 0.0]);
+        // Along chords 2 r cos t of a ball: exp(-sigma 2 r cos t) to 1e-14.
+        for k in 0..100 {
+            let chord = 2.0 * f64::from(k) / 100.0;
+            let [_, green, blue] = transmittance(&medium, chord);
+            assert!((green - libm::exp(-0.5 * chord)).abs() < 1e-14, "{chord}");
+            assert!((blue - libm::exp(-2.0 * chord)).abs() < 1e-14, "{chord}");
+        }
         // Two halves of the way leave the product.
         let halves = transmittance(&medium, 1.5).map(|t| t * t);
         assert!((halves[2] - blue).abs() < 1e-17);

@@ -73,6 +73,11 @@ impl Default for Whitted {
     }
 }
 
+/// A camera whose coordinates are up to so many times its distance to the target, 2^30,
+/// sees what is there in steps that are too small to be noticed: pictures of one scene,
+/// moved so far, differ in no more than a pixel in a thousand.
+const FARTHEST: f64 = 1_073_741_824.0;
+
 /// Coordinates up to this can be squared, and the result multiplied with
 /// another one, in double precision.
 const LARGEST: f64 = 1e75;
@@ -98,6 +103,15 @@ impl Engine for Whitted {
             warnings.push(format!(
                 "the camera is farther than {LARGEST:e} from the origin, where squares leave the \
                  range of numbers: scale the scene"
+            ));
+        }
+        let to_target = (camera.target().get() - camera.origin().get()).amax();
+        if reach > FARTHEST * to_target && reach <= LARGEST {
+            let apart = reach.next_up() - reach;
+            warnings.push(format!(
+                "the camera is {reach:.1e} from the origin, where coordinates are {apart:.1e} apart, \
+                 and {to_target:.1e} from its target: what is near it may look stepped; move the \
+                 scene to the origin"
             ));
         }
         let mut groups = BTreeSet::new();

@@ -87,8 +87,8 @@ pub(super) fn collapse(binary: &[Binary]) -> Vec<Node> {
                 kept.push(index);
             }
         }
-        // The largest first: there a ray most likely meets something.
-        kept.sort_by(|a, b| binary[*b].bounds.area().total_cmp(&binary[*a].bounds.area()));
+        // The largest last: there a ray most likely meets something.
+        kept.sort_by(|a, b| binary[*a].bounds.area().total_cmp(&binary[*b].bounds.area()));
         for (slot, &index) in kept.iter().enumerate() {
             let node = &binary[index];
             let child = if is_leaf(node) {

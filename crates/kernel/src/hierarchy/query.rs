@@ -6,20 +6,18 @@ use lancer_math::{Bounds, Ray, Vector};
 ///
 /// The origin is moved, in doubles, to where the ray enters the box around all
 /// (or to its beginning, where that is inside), and into the hierarchy's space.
-/// From there on everything is at most a few units away. What can have been lost
-/// by then is at most `error` below; with that and the rounding to a single the
-/// origin is moved along the ray where it is held against the faces that the ray
-/// enters through, and back where it is held against those that it leaves
-/// through. So the differences of a face and the origin that are positive are
-/// never too large at the one and never too small at the other, but for
-/// roundings of their own: for those the inverse of the direction has a margin
-/// (Ize, *Robust BVH Ray Traversal*, JCGT 2(2), 2013). Negative ones do no harm:
-/// the interval begins with 0.
+/// From there on everything is at most a few units away. A face at f is met at
+/// (f - origin) * inverse, computed as f * inverse + offset (Ize, *Robust BVH Ray
+/// Traversal*, JCGT 2(2), 2013, has the difference first, which takes longer).
+/// What can have been lost before is at most `error` below in the origin; what is
+/// lost here is at most [`MARGIN`] of f and the origin. By both the offset makes what the
+/// ray enters nearer, and what it leaves farther. So no interval is too short; that
+/// it begins before 0 does no harm.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Query {
+    pub(super) inverse: [f32; 3],
     /// For the faces where the ray goes in, and for those where it comes out.
-    pub(super) origin: [[f32; 3]; 2],
-    pub(super) inverse: [[f32; 3]; 2],
+    pub(super) offset: [[f32; 3]; 2],
     /// Whether it goes to lower coordinates: 1 if so.
     pub(super) side: [u8; 3],
     /// Where in t the moved origin is.
@@ -28,9 +26,11 @@ pub(super) struct Query {
     unit: f64,
 }
 
-/// Four units in the last place of a single: more than the roundings of a
-/// difference, an inverse and a product.
-const MARGIN: f64 = 1.0 / 4_194_304.0;
+/// Eight halves of a unit in the last place of a single: more than the roundings of
+/// the inverse, the product, the offset and the sum together, the first two of which
+/// are relative to f, the third to the origin, the last to both, whether product
+/// and sum are fused or not.
+const MARGIN: f64 = 1.0 / 2_097_152.0;
 
 /// A component below this times the largest one, or as small, moves the ray over
 /// the whole box by less than an error does.
@@ -74,8 +74,8 @@ impl Query {
             return Some(Self::ALL);
         }
         let mut query = Self {
-            origin: [[0.0; 3]; 2],
-            inverse: [[0.0; 3]; 2],
+            inverse: [0.0; 3],
+            offset: [[0.0; 3]; 2],
             side: [0; 3],
             start,
             unit: power * space.scale,
@@ -84,14 +84,14 @@ impl Query {
             query.side[axis] = u8::from(d[axis].is_sign_negative());
             let along = inverse[axis];
             let size = along.abs() * power;
-            let inverse = if size < 1.0 / STANDING { size } else { 1.0 / STANDING };
-            let inverse = inverse.copysign(along);
-            query.inverse[0][axis] = (inverse * (1.0 - MARGIN)) as f32;
-            query.inverse[1][axis] = (inverse * (1.0 + MARGIN)) as f32;
+            let size = if size < 1.0 / STANDING { size } else { 1.0 / STANDING };
             let o = origin[axis];
-            let ahead = (error[axis] + o.abs() * MARGIN).copysign(along);
-            query.origin[0][axis] = (o + ahead) as f32;
-            query.origin[1][axis] = (o - ahead) as f32;
+            let slack = (error[axis] + (1.0 + o.abs()) * MARGIN) * size;
+            let inverse = size.copysign(along);
+            let offset = o * inverse;
+            query.inverse[axis] = inverse as f32;
+            query.offset[0][axis] = (-offset - slack) as f32;
+            query.offset[1][axis] = (slack - offset) as f32;
         }
         Some(query)
     }
@@ -99,8 +99,8 @@ impl Query {
     /// What goes through every box: for rays whose numbers leave the range of what
     /// is computed here.
     const ALL: Self = Self {
-        origin: [[4.0; 3], [-4.0; 3]],
-        inverse: [[1.0; 3]; 2],
+        inverse: [1.0; 3],
+        offset: [[-4.0; 3], [4.0; 3]],
         side: [0; 3],
         start: 0.0,
         unit: f64::INFINITY,

@@ -1,6 +1,8 @@
 use super::{One, Wide};
-use fearless_simd::{Simd, SimdBase, SimdMask, f32x8, f64x8, mask64x8};
-use std::ops::{BitAnd, BitOr, Mul, Sub};
+use fearless_simd::{
+    Level, Select, Simd, SimdBase, SimdFloat, SimdMask, f32x8, f64x8, mask32x8, mask64x8, u32x8,
+};
+use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
 
 /// Eight numbers at once, however many a register holds: for what comes in eights
 /// by itself, as the children of a node and the triangles of a leaf do.
@@ -13,6 +15,10 @@ pub trait Eight: Copy {
     /// Eight doubles.
     type Doubles: Doubles;
 
+    /// Whether a fused multiply-add is an instruction; else it takes a function's time.
+    fn fuses(self) -> bool;
+    /// Writes those numbers first whose bits are set, in their order, and anything behind.
+    fn pack(self, from: &[u32; 8], bits: u32, to: &mut [u32; 8]);
     /// The same single eight times.
     fn single(self, x: f32) -> Self::Singles;
     /// These singles.
@@ -26,7 +32,11 @@ pub trait Eight: Copy {
 }
 
 /// Eight singles.
-pub trait Singles: Copy + Sub<Output = Self> + Mul<Output = Self> {
+pub trait Singles: Copy {
+    /// `self` times `a` plus `b`, rounded once or twice, as the machine has it: only for
+    /// bounds with room for either.
+    #[must_use]
+    fn near_mul_add(self, a: Self, b: Self) -> Self;
     /// The smaller ones. Neither may be NaN.
     #[must_use]
     fn min(self, other: Self) -> Self;
@@ -40,9 +50,32 @@ pub trait Singles: Copy + Sub<Output = Self> + Mul<Output = Self> {
 }
 
 /// Eight doubles.
-pub trait Doubles: Copy + Sub<Output = Self> + Mul<Output = Self> {
+pub trait Doubles:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
     /// Eight answers.
     type Answers: Answers;
+
+    /// `self` times `a` plus `b`, rounded once.
+    #[must_use]
+    fn mul_add(self, a: Self, b: Self) -> Self;
+    /// The smaller ones, and `self` where they cannot be compared.
+    #[must_use]
+    fn least(self, other: Self) -> Self;
+    /// The larger ones, and `self` where they cannot be compared.
+    #[must_use]
+    fn most(self, other: Self) -> Self;
+    /// Writes them out.
+    fn store(self, to: &mut [f64; 8]);
+    /// Which are less; not where either is NaN.
+    fn lt(self, other: Self) -> Self::Answers;
+    /// Which are greater; not where either is NaN.
+    fn gt(self, other: Self) -> Self::Answers;
 
     /// Which are less or equal; not where either is NaN.
     fn le(self, other: Self) -> Self::Answers;
@@ -59,6 +92,23 @@ pub trait Answers: Copy + BitAnd<Output = Self> + BitOr<Output = Self> {
 impl<S: Simd> Eight for Wide<S> {
     type Singles = Wide<f32x8<S>>;
     type Doubles = Wide<f64x8<S>>;
+
+    #[inline(always)]
+    fn fuses(self) -> bool {
+        match self.0.level() {
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx2(_) | Level::Avx512(_) => true,
+            #[cfg(target_arch = "aarch64")]
+            Level::Neon(_) => true,
+            _ => false,
+        }
+    }
+
+    #[inline(always)]
+    fn pack(self, from: &[u32; 8], bits: u32, to: &mut [u32; 8]) {
+        let mask = mask32x8::from_bitmask(self.0, u64::from(bits));
+        u32x8::from_slice(self.0, from).compress(mask).store_slice(to);
+    }
 
     #[inline(always)]
     fn single(self, x: f32) -> Self::Singles {
@@ -89,6 +139,12 @@ impl<S: Simd> Eight for Wide<S> {
 
 impl<S: Simd> Singles for Wide<f32x8<S>> {
     #[inline(always)]
+    #[expect(clippy::disallowed_methods, reason = "what is asked for")]
+    fn near_mul_add(self, a: Self, b: Self) -> Self {
+        Self(self.0.mul_add(a.0, b.0))
+    }
+
+    #[inline(always)]
     fn min(self, other: Self) -> Self {
         Self(self.0.min(other.0))
     }
@@ -111,6 +167,36 @@ impl<S: Simd> Singles for Wide<f32x8<S>> {
 
 impl<S: Simd> Doubles for Wide<f64x8<S>> {
     type Answers = Wide<mask64x8<S>>;
+
+    #[inline(always)]
+    fn mul_add(self, a: Self, b: Self) -> Self {
+        Self(self.0.mul_add_precise(a.0, b.0))
+    }
+
+    #[inline(always)]
+    fn least(self, other: Self) -> Self {
+        Self(other.0.simd_lt(self.0).select(other.0, self.0))
+    }
+
+    #[inline(always)]
+    fn most(self, other: Self) -> Self {
+        Self(other.0.simd_gt(self.0).select(other.0, self.0))
+    }
+
+    #[inline(always)]
+    fn store(self, to: &mut [f64; 8]) {
+        self.0.store_slice(to);
+    }
+
+    #[inline(always)]
+    fn lt(self, other: Self) -> Self::Answers {
+        Wide(self.0.simd_lt(other.0))
+    }
+
+    #[inline(always)]
+    fn gt(self, other: Self) -> Self::Answers {
+        Wide(self.0.simd_gt(other.0))
+    }
 
     #[inline(always)]
     fn le(self, other: Self) -> Self::Answers {
@@ -161,8 +247,19 @@ macro_rules! operator {
     )*};
 }
 
-operator!(Sub, sub, -, f32x8, f64x8);
-operator!(Mul, mul, *, f32x8, f64x8);
+operator!(Add, add, +, f64x8);
+operator!(Sub, sub, -, f64x8);
+operator!(Mul, mul, *, f64x8);
+operator!(Div, div, /, f64x8);
+
+impl<S: Simd> Neg for Wide<f64x8<S>> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(-self.0)
+    }
+}
 
 /// Eight numbers, or answers, one by one.
 #[derive(Debug, Clone, Copy)]
@@ -200,6 +297,18 @@ impl Array<bool> {
 impl Eight for One {
     type Singles = Array<f32>;
     type Doubles = Array<f64>;
+
+    #[inline(always)]
+    fn fuses(self) -> bool {
+        false
+    }
+
+    #[inline(always)]
+    fn pack(self, from: &[u32; 8], bits: u32, to: &mut [u32; 8]) {
+        for (to, lane) in to.iter_mut().zip(super::lanes_of(bits)) {
+            *to = from[lane & 7];
+        }
+    }
 
     #[inline(always)]
     fn single(self, x: f32) -> Array<f32> {
@@ -240,21 +349,60 @@ macro_rules! one_by_one {
         }
     };
     (@rest operator) => { type Output = Self; };
-    (@rest doubles) => { type Answers = Array<bool>; };
+    (@rest doubles) => {
+        type Answers = Array<bool>;
+
+        #[inline(always)]
+        fn mul_add(self, a: Self, b: Self) -> Self {
+            Self(std::array::from_fn(
+                #[inline(always)]
+                |i| self.0[i].mul_add(a.0[i], b.0[i]),
+            ))
+        }
+
+        #[inline(always)]
+        fn store(self, to: &mut [f64; 8]) {
+            *to = self.0;
+        }
+    };
 }
 
-one_by_one!(operator, Sub for f32, sub -> Self, |a, b| a - b;);
-one_by_one!(operator, Mul for f32, mul -> Self, |a, b| a * b;);
+one_by_one!(operator, Add for f64, add -> Self, |a, b| a + b;);
 one_by_one!(operator, Sub for f64, sub -> Self, |a, b| a - b;);
 one_by_one!(operator, Mul for f64, mul -> Self, |a, b| a * b;);
+one_by_one!(operator, Div for f64, div -> Self, |a, b| a / b;);
 one_by_one!(operator, BitAnd for bool, bitand -> Self, |a, b| a & b;);
 one_by_one!(operator, BitOr for bool, bitor -> Self, |a, b| a | b;);
+
+impl Neg for Array<f64> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(self.0.map(
+            #[inline(always)]
+            |a| -a,
+        ))
+    }
+}
 one_by_one!(doubles, Doubles for f64,
+    least -> Self, |a, b| if b < a { b } else { a };
+    most -> Self, |a, b| if b > a { b } else { a };
+    lt -> Array<bool>, |a, b| a < b;
     le -> Array<bool>, |a, b| a <= b;
+    gt -> Array<bool>, |a, b| a > b;
     ge -> Array<bool>, |a, b| a >= b;
 );
 
 impl Singles for Array<f32> {
+    #[inline(always)]
+    fn near_mul_add(self, a: Self, b: Self) -> Self {
+        Self(std::array::from_fn(
+            #[inline(always)]
+            |i| self.0[i] * a.0[i] + b.0[i],
+        ))
+    }
+
     #[inline(always)]
     fn min(self, other: Self) -> Self {
         self.with(

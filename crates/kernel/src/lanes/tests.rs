@@ -1,7 +1,9 @@
 //! Each operation gives, in each lane and for each width that this processor has,
 //! the very bits of the plain operation on one double.
 
-use super::{Lanes, MOST, Mask, Real, Width, Work, dispatch, lanes_of};
+use super::{
+    Answers as EightAnswers, Doubles as _, Lanes, MOST, Mask, Real, Width, Work, dispatch, lanes_of,
+};
 use fastrand::Rng;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -388,5 +390,72 @@ fn widths_have_names_and_an_order() {
         let error = Width::by_name(wrong).expect_err("there are none of that name");
         assert_eq!(error.name, wrong);
         assert!(all.iter().all(|width| error.to_string().contains(width.name())), "{error}");
+    }
+}
+
+struct InEights {
+    a: [f64; 8],
+    b: [f64; 8],
+    bits: u32,
+}
+
+impl Work for InEights {
+    type Output = (Vec<Vec<u64>>, Vec<u32>, Vec<u32>);
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) -> Self::Output {
+        let (a, b) = (lanes.doubles(&self.a), lanes.doubles(&self.b));
+        let results = [a.least(b), a.most(b), a + b, a / b, -a, a.mul_add(b, a)];
+        let results = results.map(|result| {
+            let mut to = [0.0; 8];
+            result.store(&mut to);
+            to.map(f64::to_bits).to_vec()
+        });
+        let answers = [a.lt(b), a.le(b), a.gt(b), a.ge(b)].map(EightAnswers::bits);
+        let mut packed = [0; 8];
+        lanes.pack(&[0, 1, 2, 3, 4, 5, 6, 7], self.bits, &mut packed);
+        let count = self.bits.count_ones() as usize;
+        (results.to_vec(), answers.to_vec(), packed[..count].to_vec())
+    }
+}
+
+/// Of eights, at every width, with what cannot be compared.
+#[test]
+fn eights_are_eight_numbers() {
+    let mut rng = Rng::with_seed(8);
+    for case in 0..256 {
+        let mut number = || [0.0, -0.0, 1.5, f64::NAN, f64::INFINITY, rng.f64()][rng.usize(0..6)];
+        let [a, b] = [[(); 8], [(); 8]].map(|eight| eight.map(|()| number()));
+        let each = |f: fn(f64, f64) -> f64| (0..8).map(|i| f(a[i], b[i]).to_bits()).collect();
+        let which = |f: fn(&f64, &f64) -> bool| {
+            (0..8).filter(|&i| f(&a[i], &b[i])).map(|i| 1 << i).sum::<u32>()
+        };
+        let results: Vec<Vec<u64>> = vec![
+            each(|a, b| if b < a { b } else { a }),
+            each(|a, b| if b > a { b } else { a }),
+            each(|a, b| a + b),
+            each(|a, b| a / b),
+            each(|a, _| -a),
+            each(|a, b| a.mul_add(b, a)),
+        ];
+        let answers = vec![
+            which(|a, b| a < b),
+            which(|a, b| a <= b),
+            which(|a, b| a > b),
+            which(|a, b| a >= b),
+        ];
+        let packed: Vec<u32> = (0..8).filter(|i| case >> i & 1 == 1).collect();
+        for width in Width::available() {
+            let (found, found_answers, found_packed) =
+                dispatch(width, InEights { a, b, bits: case });
+            for (found, result) in found.iter().zip(&results) {
+                for (found, result) in found.iter().zip(result) {
+                    let both_nan =
+                        f64::from_bits(*found).is_nan() && f64::from_bits(*result).is_nan();
+                    assert!(found == result || both_nan, "{}: case {case}", width.name());
+                }
+            }
+            assert_eq!((found_answers, found_packed), (answers.clone(), packed.clone()));
+        }
     }
 }

@@ -3,15 +3,14 @@
 use super::build::is_finite;
 use super::walk::{Known, Quest};
 use super::{Any, Nearest, Prepared, Question, Which};
-use crate::checker::{self, LaneCells};
 use crate::lanes::{Lanes, MOST, Mask, Real, Work, lanes_of};
-use crate::listed::{Candidates, Goal, LaneHits, LanePoints, Listed, MOST_LISTED};
+use crate::listed::{Candidates, Goal, LaneHits, Listed, ListedShape, MOST_LISTED};
 use crate::primitive::Primitive;
 use crate::shapes::plane::HalfSpace;
 use crate::shapes::sphere::Ball;
 use crate::{Hit, Rays};
 use lancer_math::{Point, Ray, Vector};
-use lancer_scene::{Checker, Geometry, Shape};
+use lancer_scene::{Geometry, Shape};
 
 /// More spheres than these are met by one ray at a time, many spheres at once.
 const MOST_SPHERES: usize = 16;
@@ -65,16 +64,17 @@ impl Prepared {
     /// The nearest hits with 0 < t < `t_max` of the `asked` rays of a register; for
     /// others it answers anything. Listed shapes that are no candidates are not asked. If
     /// rays leave the outside of closed items as [`SurfacePoint::leave`](crate::SurfacePoint::leave)
-    /// has it, `outside` are those; -1 where they do not.
+    /// has it, those are named with the candidates; -1 where they do not.
     #[inline(always)]
     pub fn nearest_in_lanes<L: Lanes>(
         &self,
         rays: &Rays<L>,
         t_max: f64,
         asked: L::Mask,
-        (among, outside): (&Candidates, Option<L::Real>),
+        among: (&Candidates, Option<L::Real>),
     ) -> LaneHits<L::Real> {
-        let hits = self.listed.nearest(rays, rays.lanes.splat(t_max), among, outside);
+        let plain = self.settings.culling.plain_cases;
+        let hits = self.listed.nearest(rays, rays.lanes.splat(t_max), among, plain);
         if self.lists_all() { hits } else { self.nearest_lane_by_lane(rays, t_max, asked, hits) }
     }
 
@@ -116,7 +116,7 @@ impl Prepared {
     /// Which of the `asked` rays of a register hit something with 0 < t < `t_max`
     /// among some items. Listed shapes that are no candidates are not asked. If all of
     /// them leave the outside of a closed item as [`SurfacePoint::leave`](crate::SurfacePoint::leave) has it,
-    /// that is `outside`.
+    /// that is named with the candidates.
     #[inline(always)]
     pub fn any_in_lanes<L: Lanes>(
         &self,
@@ -124,9 +124,10 @@ impl Prepared {
         t_max: f64,
         asked: L::Mask,
         which: Which,
-        (among, outside): (&Candidates, Option<u32>),
+        among: (&Candidates, Option<u32>),
     ) -> L::Mask {
-        let met = self.listed.any(rays, t_max, which, among, outside) & asked;
+        let plain = self.settings.culling.plain_cases;
+        let met = self.listed.any(rays, (t_max, which), among, plain) & asked;
         if self.lists_all() {
             return met;
         }
@@ -157,43 +158,19 @@ impl Prepared {
         )
     }
 
-    /// The points of hits that a register of rays has with one item, if it is one
-    /// that is met in lanes; [`expand`](Self::expand) gives the same, one by one.
-    #[inline(always)]
-    pub fn points_in_lanes<L: Lanes>(
-        &self,
-        rays: &Rays<L>,
-        t: L::Real,
-        item: u32,
-    ) -> Option<LanePoints<L::Real>> {
-        self.listed.contacts(item, rays, t)
-    }
-
-    /// Which colours of a checker points show of an item that is met in lanes.
-    #[inline(always)]
-    pub fn cells_in_lanes<L: Lanes>(
-        &self,
-        lanes: L,
-        item: u32,
-        points: &LanePoints<L::Real>,
-        checker: &Checker,
-    ) -> LaneCells<L::Mask> {
-        match self.listed.plane(item) {
-            Some(plane) => {
-                let (first, second) = plane.squares(lanes, &points.point, checker);
-                checker::cells(lanes, first, second)
-            }
-            None => checker::on_globe(lanes, &points.normal, checker.angle.get()),
-        }
-    }
-
-    /// Whether [`points_in_lanes`](Self::points_in_lanes) knows the item.
+    /// The shape of an item, if it is one that is met in lanes.
     #[must_use]
-    pub fn is_listed(&self, item: u32) -> bool {
-        self.listed.is_listed(item)
+    pub fn shape_in_lanes(&self, item: u32) -> Option<ListedShape<'_>> {
+        self.listed.shape(item)
     }
 
-    /// What rays may meet that start in a ball and whose angle with an axis of
+    /// Whether rays that are held against these candidates meet nothing of some items.
+    #[must_use]
+    pub fn is_clear(&self, which: Which, among: &Candidates) -> bool {
+        self.lists_all() && self.listed.has_none(which, among)
+    }
+
+    /// What rays of length 1 may meet that start in a ball and whose angle with an axis of
     /// length 1 has at least that cosine.
     #[must_use]
     pub fn candidates_in_cone(

@@ -23,8 +23,8 @@
 //! Degenerate cases: along the axis of a cylinder the barrel is everywhere or
 //! nowhere; parallel to a line of a cone's side (a = 0), and steeper (a < 0), it is
 //! a half-line; a ray in a line of the side is none. At the apex the normal is
-//! along the axis. A ray through the apex alone touches: its two crossings are
-//! one.
+//! that of the side which the ray comes towards, so that it is as bright as what is
+//! around it. A ray through the apex alone touches: its two crossings are one.
 
 use super::exact::difference_of_products;
 use super::frame::{Frame, across};
@@ -238,14 +238,19 @@ impl Primitive for Barrel {
         let (z, across) = self.split(&at);
         let distance = across.norm();
         let apart = distance > 0.0;
-        // On the axis, where a thin end seen from afar may be hit, all are as good.
-        let outward = if apart { across / distance } else { self.frame.first };
+        // On the axis, at an apex or where a thin end is seen from afar, the side that the
+        // ray comes from.
+        let outward = if apart {
+            across / distance
+        } else {
+            let (_, sideward) = self.split(&ray.direction);
+            unit(-sideward).unwrap_or(self.frame.first)
+        };
         let (z, radius, normal) = if crossing.part == SIDE {
             let z = z.clamp(0.0, self.length);
             let radius = self.radii[0] + self.slope * z;
             // The slope's own length may be beyond a double; unit() has none of that.
-            let has_one = apart || radius > 0.0;
-            let normal = unit(outward - self.axis * self.slope).filter(|_| has_one);
+            let normal = unit(outward - self.axis * self.slope);
             (z, radius, normal.unwrap_or(-self.axis))
         } else if crossing.part == self.lids[0] {
             (0.0, distance.min(self.radii[0]), -self.axis)
@@ -264,9 +269,13 @@ impl Primitive for Barrel {
     /// from their middle and the angle.
     fn cell(&self, contact: &Contact, part: u32, checker: &Checker) -> Cell {
         let at = self.frame.local(&(contact.point - self.base));
-        let along = if part == SIDE { at.z } else { (at.x * at.x + at.y * at.y).sqrt() };
+        let across = (at.x * at.x + at.y * at.y).sqrt();
+        let along = if part == SIDE { at.z } else { across };
         let turn = checker::turn(at.x, at.y);
-        checker::cell(along / checker.length.get(), turn / checker.angle.get())
+        let (length, angle) = (checker.length.get(), checker.angle.get());
+        let slack = checker::slack(contact.error, length);
+        let slack_around = checker::slack_around(contact.error, across, angle);
+        checker::cell([along / length, turn / angle], [slack, slack_around])
     }
 
     /// Around the circles of both lids.
@@ -404,7 +413,13 @@ mod tests {
             }
             let at = Crossing { t: 0.0, part: SIDE };
             let contact = shape.contact(&ray([0.0; 3], [0.0, 0.0, 1.0]), &at);
-            assert_eq!((contact.point, contact.normal), (Point::origin(), -Vector::z()));
+            let (outward, axis) = (shape.frame.first, Vector::z());
+            assert_eq!(contact.point, Point::origin());
+            assert!((contact.normal - (outward - axis) * 0.5_f64.sqrt()).amax() < 1e-15);
+            // That of the side towards which the ray comes.
+            let contact = shape.contact(&ray([0.0; 3], [3.0, -4.0, 1.0]), &at);
+            let expected = Vector::new(-0.6, 0.8, -1.0) * 0.5_f64.sqrt();
+            assert!((contact.normal - expected).amax() < 1e-15, "{}", contact.normal);
         }
     }
 

@@ -103,9 +103,11 @@ impl Primitive for Slabs {
 
     /// Squares on each face from the corner with the smallest coordinates.
     fn cell(&self, contact: &Contact, part: u32, checker: &Checker) -> Cell {
-        let at = (contact.point - self.bounds.min) / checker.length.get();
+        let length = checker.length.get();
+        let at = (contact.point - self.bounds.min) / length;
         let axis = part as usize / 2;
-        checker::cell(at[(axis + 1) % 3], at[(axis + 2) % 3])
+        let slack = checker::slack(contact.error, length);
+        checker::cell([at[(axis + 1) % 3], at[(axis + 2) % 3]], [slack; 2])
     }
 
     fn bounds(&self) -> Option<Bounds> {

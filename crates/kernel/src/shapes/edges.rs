@@ -78,6 +78,17 @@ impl Shear {
     }
 
     #[inline(always)]
+    pub(crate) const fn longest(&self) -> f64 {
+        self.longest
+    }
+
+    /// The direction's other components.
+    #[inline(always)]
+    pub(crate) const fn others(&self) -> [f64; 2] {
+        self.others
+    }
+
+    #[inline(always)]
     fn see(&self, vertex: &[f64; 3]) -> Seen {
         let [i, j, k] = self.axes;
         let (x, y, z) =

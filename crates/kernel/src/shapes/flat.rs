@@ -68,8 +68,9 @@ impl Primitive for Round {
     }
 
     fn cell(&self, contact: &Contact, _part: u32, checker: &Checker) -> Cell {
-        let at = self.frame.local(&(contact.point - self.centre)) / checker.length.get();
-        checker::cell(at.x, at.y)
+        let length = checker.length.get();
+        let at = self.frame.local(&(contact.point - self.centre)) / length;
+        checker::cell([at.x, at.y], [checker::slack(contact.error, length); 2])
     }
 
     fn bounds(&self) -> Option<Bounds> {
@@ -130,10 +131,11 @@ impl Patch {
     }
 
     /// The cell of squares along the first side.
-    pub(crate) fn cell(&self, point: &Point, checker: &Checker) -> Cell {
-        let at = point - self.corner;
-        let [i, j] = self.axes.map(|axis| axis.dot(&at) / checker.length.get());
-        checker::cell(i, j)
+    pub(crate) fn cell(&self, contact: &Contact, checker: &Checker) -> Cell {
+        let length = checker.length.get();
+        let at = contact.point - self.corner;
+        let squares = self.axes.map(|axis| axis.dot(&at) / length);
+        checker::cell(squares, [checker::slack(contact.error, length); 2])
     }
 }
 
@@ -177,7 +179,7 @@ impl Primitive for Sheet {
     }
 
     fn cell(&self, contact: &Contact, _part: u32, checker: &Checker) -> Cell {
-        self.patch.cell(&contact.point, checker)
+        self.patch.cell(contact, checker)
     }
 
     fn bounds(&self) -> Option<Bounds> {

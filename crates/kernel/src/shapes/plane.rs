@@ -155,7 +155,7 @@ impl Primitive for HalfSpace {
     fn cell(&self, contact: &Contact, _part: u32, checker: &Checker) -> Cell {
         let point = Vectors::splat_point(One, &contact.point);
         let (first, second) = self.squares(One, &point, checker);
-        checker::cell(first, second)
+        checker::cell([first, second], [checker::slack(contact.error, checker.length.get()); 2])
     }
 
     fn bounds(&self) -> Option<Bounds> {

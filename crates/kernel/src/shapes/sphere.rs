@@ -12,7 +12,8 @@
 //! its sign says exactly on which side of the surface the origin is.
 //!
 //! Touching (|p| = r) counts as two crossings at one place. A radius or a distance
-//! whose square is no number is beyond what can be met.
+//! whose square is no number is beyond what can be met, and so is a radius whose
+//! square has lost digits for being too small.
 
 use super::exact::{two_products, two_sums};
 use crate::Crossing;
@@ -195,9 +196,15 @@ impl<R: Real> Balls<R> {
     }
 }
 
+/// 2^-480: of its square, all digits of a double and of what it loses are in range.
+const LEAST_RADIUS: f64 = f64::from_bits((1023 - 480) << 52);
+
 impl Ball {
+    /// With a radius that is no number where it is too small to be met.
     pub(crate) fn new(sphere: &Sphere) -> Self {
-        Self { centre: sphere.centre.get(), radius: sphere.radius.get() }
+        let radius = sphere.radius.get();
+        let radius = if radius >= LEAST_RADIUS { radius } else { f64::NAN };
+        Self { centre: sphere.centre.get(), radius }
     }
 }
 
@@ -236,8 +243,12 @@ impl Primitive for Ball {
     fn cell(&self, contact: &Contact, _part: u32, checker: &Checker) -> Cell {
         let n = contact.normal;
         let angle = checker.angle.get();
-        let latitude = libm::atan2(n.z, libm::hypot(n.x, n.y)).to_degrees();
-        checker::cell(checker::turn(n.x, n.y) / angle, latitude / angle)
+        let across = libm::hypot(n.x, n.y);
+        let latitude = libm::atan2(n.z, across).to_degrees();
+        // Meridians run together at the poles.
+        let slack = [across, 1.0]
+            .map(|radius| checker::slack_around(contact.error, radius * self.radius, angle));
+        checker::cell([checker::turn(n.x, n.y) / angle, latitude / angle], slack)
     }
 
     fn bounds(&self) -> Option<Bounds> {

@@ -72,7 +72,7 @@ impl Primitive for Faces {
     }
 
     fn cell(&self, contact: &Contact, part: u32, checker: &Checker) -> Cell {
-        self.faces[part as usize % 4].cell(&contact.point, checker)
+        self.faces[part as usize % 4].cell(contact, checker)
     }
 
     fn bounds(&self) -> Option<Bounds> {

@@ -242,9 +242,12 @@ impl Primitive for Ring {
 
     fn cell(&self, contact: &Contact, _part: u32, checker: &Checker) -> Cell {
         let at = self.frame.local(&(contact.point - self.centre));
-        let off = (at.x * at.x + at.y * at.y).sqrt() - self.ring;
+        let across = (at.x * at.x + at.y * at.y).sqrt();
+        let off = across - self.ring;
         let angle = checker.angle.get();
-        checker::cell(checker::turn(at.x, at.y) / angle, checker::turn(off, at.z) / angle)
+        let slack =
+            [across, self.tube].map(|radius| checker::slack_around(contact.error, radius, angle));
+        checker::cell([checker::turn(at.x, at.y) / angle, checker::turn(off, at.z) / angle], slack)
     }
 
     fn bounds(&self) -> Option<Bounds> {

@@ -65,7 +65,7 @@ impl Primitive for Facet {
     }
 
     fn cell(&self, contact: &Contact, _part: u32, checker: &Checker) -> Cell {
-        self.patch.cell(&contact.point, checker)
+        self.patch.cell(contact, checker)
     }
 
     fn bounds(&self) -> Option<Bounds> {

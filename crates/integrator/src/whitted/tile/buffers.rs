@@ -1,8 +1,8 @@
 //! What a tile's rays carry.
 
 use crate::rows::{BATCH, Row, Triples, ZEROS};
-use lancer_kernel::Hit;
 use lancer_kernel::lanes::MOST;
+use lancer_kernel::{Candidates, Hit};
 use lancer_math::{Ray, Vector};
 
 /// Rays that are followed together.
@@ -99,14 +99,6 @@ pub(super) struct Sights {
     pub(super) is_smooth: bool,
     pub(super) shading: Triples,
     pub(super) albedo: Triples,
-    /// The share of the matte part in the pixel, by colour.
-    pub(super) matte: Triples,
-    /// Whether one of them is above 0 everywhere.
-    pub(super) all_matter: bool,
-    /// The light that falls on it.
-    pub(super) light: Triples,
-    /// Whether that is the same for all colours, and only the first is kept.
-    pub(super) is_grey: bool,
 }
 
 impl Sights {
@@ -118,12 +110,17 @@ impl Sights {
             is_smooth: false,
             shading: Triples::ZEROS,
             albedo: Triples::ZEROS,
-            matte: Triples::ZEROS,
-            all_matter: false,
-            light: Triples::ZEROS,
-            is_grey: true,
         }
     }
+}
+
+/// What may hide a light from a batch of points.
+pub(super) struct Hiding {
+    pub(super) among: Candidates,
+    /// The item that all leave the outside of, if it is one.
+    pub(super) outside: Option<u32>,
+    /// Whether nothing opaque does.
+    pub(super) is_clear: bool,
 }
 
 /// All that a tile needs, kept by each thread from tile to tile.
@@ -134,6 +131,8 @@ pub(super) struct Buffers {
     /// Those that met the same item.
     pub(super) group: Box<Bundle>,
     pub(super) sights: Sights,
+    /// What may stand between those and each light.
+    pub(super) hiding: Vec<Hiding>,
     pub(super) radiance: Triples,
     /// The rays in the order of what they met.
     pub(super) order: [u16; BATCH + MOST],
@@ -149,6 +148,7 @@ impl Buffers {
             next: Box::new(Bundle::new()),
             group: Box::new(Bundle::new()),
             sights: Sights::new(),
+            hiding: Vec::new(),
             radiance: Triples::ZEROS,
             order: [0; BATCH + MOST],
             items: Vec::with_capacity(BATCH),

@@ -1,77 +1,138 @@
 //! The light of lamps, spots and suns that falls on the points of a batch.
 
-use super::buffers::Buffers;
-use super::shade::{Around, leaving};
+use super::buffers::{Buffers, Hiding};
+use super::shade::Around;
 use super::{Tile, dot};
 use crate::whitted::lights::{From, Source};
 use crate::whitted::media::Media;
 use lancer_kernel::lanes::{Lanes, MOST, Mask, Real, Vectors, lanes_of};
 use lancer_kernel::{Candidates, Goal, Rays, Which};
+use lancer_math::Vector;
 use lancer_scene::Falloff;
 
+/// The points of a register.
+struct Lit<L: Lanes> {
+    /// The place of the first one in the group.
+    at: usize,
+    /// Those that light matters to.
+    matter: L::Mask,
+    point: Vectors<L::Real>,
+    facet: Vectors<L::Real>,
+    shading: Vectors<L::Real>,
+    /// Where rays to what is above the facet start.
+    origin: Vectors<L::Real>,
+}
+
 impl Tile<'_> {
-    /// The radiance of a white matte surface at each point of the group: each lane
-    /// computes what [`Lights::gather`](crate::whitted::lights::Lights::gather) does.
+    /// Adds what light makes of the matte part of what the group sees, whose share is `matte`:
+    /// the radiance of a white surface is what each lane computes as
+    /// [`Lights::gather`](crate::whitted::lights::Lights::gather) does.
     #[inline(always)]
-    pub(super) fn gather<L: Lanes>(&mut self, lanes: L, item: u32, around: &Around) {
-        let Buffers { group, sights, .. } = &mut *self.buffers;
+    pub(super) fn gather<L: Lanes>(&mut self, lanes: L, matte: f64, item: u32, around: &Around) {
+        let tracer = self.tracer;
+        let sources = &tracer.lights.lights;
         // Opaque surfaces leave light its colour.
-        sights.is_grey = !self.tracer.prepared.has_transparent();
-        let colours = if sights.is_grey { 1 } else { 3 };
-        for light in &mut sights.light.0[..colours] {
-            light[..group.count].fill(0.0);
-        }
-        for index in 0..self.tracer.lights.lights.len() {
-            let source = &self.tracer.lights.lights[index];
-            let goal = match &source.place {
-                From::Point(point) => Goal::Point(*point),
-                From::Direction(direction) => Goal::Direction(*direction),
-            };
-            let culling = &self.tracer.kernel.culling;
-            let among = if culling.shadow_candidates {
-                let leaving = around.side.filter(|_| culling.idle_planes).map(|side| (item, side));
-                let Around { centre, radius, .. } = around;
-                self.tracer.prepared.candidates_between(centre, *radius, &goal, leaving)
-            } else {
-                Candidates::ALL
-            };
-            for at in (0..self.buffers.group.count).step_by(L::WIDTH) {
-                self.shine(lanes, source, at, (&among, around.outside));
+        let is_grey = !tracer.prepared.has_transparent();
+        self.hide(item, around);
+        let in_order = self.is_in_order();
+        let zero = lanes.splat(0.0);
+        let count = self.buffers.group.count;
+        for at in (0..count).step_by(L::WIDTH) {
+            let Buffers { group, sights, .. } = &*self.buffers;
+            let share = group.share.load(lanes, at) * lanes.splat(matte);
+            let albedo = sights.albedo.load(lanes, at);
+            let share =
+                Vectors { x: share.x * albedo.x, y: share.y * albedo.y, z: share.z * albedo.z };
+            let nothing = share.x.eq(zero) & share.y.eq(zero) & share.z.eq(zero);
+            let matter = lanes.first(count - at) & !nothing;
+            if !matter.any() {
+                continue;
+            }
+            let (point, facet) = (sights.point.load(lanes, at), sights.facet.load(lanes, at));
+            let shading = if sights.is_smooth { sights.shading.load(lanes, at) } else { facet };
+            // As `SurfacePoint::leave` has it.
+            let origin = point + facet * (lanes.load(&sights.error[at..]) * 2.0);
+            let lit = Lit { at, matter, point, facet, shading, origin };
+            let mut light = Vectors::splat(lanes, &Vector::zeros());
+            for (index, source) in sources.iter().enumerate() {
+                self.shine(lanes, (source, index), &lit, is_grey, &mut light);
+            }
+            if is_grey {
+                (light.y, light.z) = (light.x, light.x);
+            }
+            let Buffers { group, radiance, .. } = &mut *self.buffers;
+            let lights = [(share.x, light.x), (share.y, light.y), (share.z, light.z)];
+            for (radiance, (share, light)) in radiance.0.iter_mut().zip(lights) {
+                // Nothing of something infinite is nothing.
+                let nothing = share.eq(zero) | light.eq(zero);
+                let seen = nothing.select(zero, share * light);
+                if in_order {
+                    // What is added beyond the last pixel is never looked at.
+                    let sum = lanes.load(&radiance[at..]) + seen;
+                    sum.store(&mut radiance[at..]);
+                    continue;
+                }
+                for k in 0..L::WIDTH.min(count - at) {
+                    radiance[usize::from(group.pixel[at + k])] += seen.lane(k);
+                }
             }
         }
     }
 
-    /// Adds the light of one source at the points of a register.
+    /// Whether the group has a ray for each pixel, in their order.
+    #[inline(always)]
+    fn is_in_order(&self) -> bool {
+        let group = &self.buffers.group;
+        group.count == self.window.pixels() as usize
+            && group.pixel[..group.count].iter().zip(0..).fold(true, |all, (p, k)| all & (*p == k))
+    }
+
+    /// Finds what may hide each light from the points of the group.
+    fn hide(&mut self, item: u32, around: &Around) {
+        let prepared = &self.tracer.prepared;
+        let culling = &self.tracer.kernel.culling;
+        let Around { centre, radius, .. } = around;
+        let leaving = around.side.filter(|_| culling.idle_planes).map(|side| (item, side));
+        self.buffers.hiding.clear();
+        for source in &self.tracer.lights.lights {
+            let goal = match &source.place {
+                From::Point(point) => Goal::Point(*point),
+                From::Direction(direction) => Goal::Direction(*direction),
+            };
+            let among = if culling.shadow_candidates {
+                prepared.candidates_between(centre, *radius, &goal, leaving)
+            } else {
+                Candidates::ALL
+            };
+            let is_clear = prepared.is_clear(Which::Opaque, &among);
+            let outside = around.outside;
+            self.buffers.hiding.push(Hiding { among, outside, is_clear });
+        }
+    }
+
+    /// Adds the light of one source, all of it to the first colour if it is grey.
     #[inline(always)]
     fn shine<L: Lanes>(
         &mut self,
         lanes: L,
-        source: &Source,
-        at: usize,
-        (among, outside): (&Candidates, Option<u32>),
+        (source, index): (&Source, usize),
+        lit: &Lit<L>,
+        is_grey: bool,
+        light: &mut Vectors<L::Real>,
     ) {
         let zero = lanes.splat(0.0);
-        let prepared = &self.tracer.prepared;
-        let Buffers { group, sights, .. } = &mut *self.buffers;
-        let point = sights.point.load(lanes, at);
-        let facet = sights.facet.load(lanes, at);
-        let shading = if sights.is_smooth { sights.shading.load(lanes, at) } else { facet };
         let (way, squared, t_max) = match &source.place {
             From::Direction(direction) => {
                 (Vectors::splat(lanes, direction), lanes.splat(1.0), f64::INFINITY)
             }
             From::Point(lamp) => {
-                let way = Vectors::splat_point(lanes, lamp) - point;
+                let way = Vectors::splat_point(lanes, lamp) - lit.point;
                 (way, dot(&way, &way), 1.0)
             }
         };
-        let along = dot(&way, &shading);
-        let is_lit = along.gt(zero) & dot(&way, &facet).gt(zero);
-        let mut asked = lanes.first(group.count - at) & is_lit;
-        if !sights.all_matter {
-            let matte = sights.matte.load(lanes, at);
-            asked = asked & !(matte.x.eq(zero) & matte.y.eq(zero) & matte.z.eq(zero));
-        }
+        let along = dot(&way, &lit.shading);
+        let is_lit = along.gt(zero) & dot(&way, &lit.facet).gt(zero);
+        let asked = lit.matter & is_lit;
         if !asked.any() {
             return;
         }
@@ -90,35 +151,36 @@ impl Tile<'_> {
         }
         let asked = asked & !strength.eq(zero);
         self.counts.shadow += u64::from(asked.bits().count_ones());
-        let away = leaving(lanes, &way, &facet, lanes.load(&sights.error[at..]));
-        let origin = point + facet * away;
-        let direction = match &source.place {
-            From::Direction(_) => way,
-            From::Point(lamp) => Vectors::splat_point(lanes, lamp) - origin,
-        };
-        let rays = Rays::new(lanes, origin, direction);
-        let hidden = prepared.any_in_lanes(&rays, t_max, asked, Which::Opaque, (among, outside));
-        let arrives = asked & !hidden;
-        if sights.is_grey {
-            let sum = lanes.load(&sights.light.0[0][at..]);
-            arrives.select(sum + strength, sum).store(&mut sights.light.0[0][at..]);
+        let Hiding { among, outside, is_clear } = &self.buffers.hiding[index];
+        if is_grey && *is_clear {
+            light.x = asked.select(light.x + strength, light.x);
             return;
         }
+        let direction = match &source.place {
+            From::Direction(_) => way,
+            From::Point(lamp) => Vectors::splat_point(lanes, lamp) - lit.origin,
+        };
+        let rays = Rays::new(lanes, lit.origin, direction);
+        let prepared = &self.tracer.prepared;
+        let hidden = prepared.any_in_lanes(&rays, t_max, asked, Which::Opaque, (among, *outside));
+        let arrives = asked & !hidden;
+        if is_grey {
+            light.x = arrives.select(light.x + strength, light.x);
+            return;
+        }
+        let mut more = [[0.0; MOST]; 3];
         for k in lanes_of(arrives.bits()) {
-            let place = super::Places::place(&self.window, group.pixel[at + k]);
-            let through = self.tracer.lights.through(
-                prepared,
-                &rays.lane(k),
-                t_max,
-                &Media::default(),
-                self.counts,
-                place,
-            );
-            for (light, through) in sights.light.0.iter_mut().zip(through) {
+            let place = super::Places::place(&self.window, self.buffers.group.pixel[lit.at + k]);
+            let (ray, media) = (rays.lane(k), Media::default());
+            let through =
+                self.tracer.lights.through(prepared, &ray, t_max, &media, self.counts, place);
+            for (more, through) in more.iter_mut().zip(through) {
+                // Nothing of something infinite is nothing.
                 if through != 0.0 {
-                    light[at + k] += strength.lane(k) * through;
+                    more[k] = strength.lane(k) * through;
                 }
             }
         }
+        *light = *light + Vectors::load(lanes, more.each_ref().map(|more| &more[..]));
     }
 }

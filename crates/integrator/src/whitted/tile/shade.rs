@@ -6,8 +6,8 @@ use super::units::units;
 use super::{Tile, ball_around, dot};
 use crate::enclose::extent;
 use crate::rows::Triples;
-use lancer_kernel::Rays;
 use lancer_kernel::lanes::{Lanes, Mask, Real, Vectors, lanes_of, larger};
+use lancer_kernel::{ListedShape, Rays};
 use lancer_math::{Bounds, Point, Vector};
 use lancer_scene::Pattern;
 
@@ -35,11 +35,13 @@ impl Tile<'_> {
     /// The rays of the group, which all met that item.
     #[inline(always)]
     pub(super) fn shade<L: Lanes>(&mut self, lanes: L, item: u32, depth: u32) {
-        let prepared = &self.tracer.prepared;
-        let surface = prepared.surface(item);
+        let tracer = self.tracer;
+        let surface = tracer.prepared.surface(item);
         let (gloss, emission) = (surface.gloss.get(), surface.emission.get());
-        let around =
-            if prepared.is_listed(item) { self.points(lanes, item) } else { self.expand(item) };
+        let around = match tracer.prepared.shape_in_lanes(item) {
+            Some(shape) => self.points(lanes, item, &shape),
+            None => self.expand(item),
+        };
         if emission != [0.0; 3] {
             let Buffers { group, radiance, .. } = &mut *self.buffers;
             for k in 0..group.count {
@@ -47,9 +49,7 @@ impl Tile<'_> {
             }
         }
         if gloss < 1.0 || !self.tracer.kernel.culling.full_mirrors {
-            self.weigh(lanes, 1.0 - gloss);
-            self.gather(lanes, item, &around);
-            self.deliver(lanes);
+            self.gather(lanes, 1.0 - gloss, item, &around);
         }
         if gloss > 0.0 {
             self.mirror(lanes, gloss, depth, around.outside);
@@ -58,7 +58,7 @@ impl Tile<'_> {
 
     /// Points, normals and colours of an item that is met in lanes.
     #[inline(always)]
-    fn points<L: Lanes>(&mut self, lanes: L, item: u32) -> Around {
+    fn points<L: Lanes>(&mut self, lanes: L, item: u32, shape: &ListedShape<'_>) -> Around {
         let culling = &self.tracer.kernel.culling;
         let prepared = &self.tracer.prepared;
         let pattern = prepared.surface(item).pattern;
@@ -73,7 +73,7 @@ impl Tile<'_> {
                 (group.origin.load(lanes, at), group.direction.load(lanes, at));
             let rays = Rays::new(lanes, origin, direction);
             let t = lanes.load(&group.t[at..]);
-            let Some(points) = prepared.points_in_lanes(&rays, t, item) else { continue };
+            let points = shape.points(&rays, t);
             let from_behind = dot(&direction, &points.normal).gt(lanes.splat(0.0));
             let facet = Vectors::select(from_behind, -points.normal, points.normal);
             behind = behind | from_behind;
@@ -88,7 +88,7 @@ impl Tile<'_> {
                 sights.albedo.store(lanes, at, &first);
                 continue;
             };
-            let cells = prepared.cells_in_lanes(lanes, item, &points, &checker);
+            let cells = shape.cells(lanes, &points, &checker);
             let albedo = Vectors::select(cells.second, second, first);
             sights.albedo.store(lanes, at, &albedo);
             let asked = lanes.first(group.count - at) & !cells.certain;
@@ -134,53 +134,6 @@ impl Tile<'_> {
         Around::new(&bounds, error, None)
     }
 
-    /// The shares of the matte part in the pixels.
-    #[inline(always)]
-    fn weigh<L: Lanes>(&mut self, lanes: L, matte: f64) {
-        let Buffers { group, sights, .. } = &mut *self.buffers;
-        let zero = lanes.splat(0.0);
-        let mut some_do_not = lanes.mask(0);
-        for at in (0..group.count).step_by(L::WIDTH) {
-            let share = group.share.load(lanes, at) * lanes.splat(matte);
-            let albedo = sights.albedo.load(lanes, at);
-            let share =
-                Vectors { x: share.x * albedo.x, y: share.y * albedo.y, z: share.z * albedo.z };
-            some_do_not = some_do_not | (share.x.eq(zero) & share.y.eq(zero) & share.z.eq(zero));
-            sights.matte.store(lanes, at, &share);
-        }
-        sights.all_matter = !some_do_not.any();
-    }
-
-    /// Adds what light makes of the matte part.
-    #[inline(always)]
-    fn deliver<L: Lanes>(&mut self, lanes: L) {
-        let Buffers { group, sights, radiance, .. } = &mut *self.buffers;
-        let zero = lanes.splat(0.0);
-        // One for each pixel, and in their order: what is added to the last register beyond
-        // them is never looked at.
-        let in_order = group.count == self.window.pixels() as usize
-            && group.pixel[..group.count].iter().zip(0..).fold(true, |all, (p, k)| all & (*p == k));
-        for axis in 0..3 {
-            let radiance = &mut radiance.0[axis];
-            let light = &sights.light.0[if sights.is_grey { 0 } else { axis }];
-            for at in (0..group.count).step_by(L::WIDTH) {
-                let share = lanes.load(&sights.matte.0[axis][at..]);
-                let light = lanes.load(&light[at..]);
-                // Nothing of something infinite is nothing.
-                let nothing = share.eq(zero) | light.eq(zero);
-                let seen = nothing.select(zero, share * light);
-                if in_order {
-                    let sum = lanes.load(&radiance[at..]) + seen;
-                    sum.store(&mut radiance[at..]);
-                    continue;
-                }
-                for k in 0..L::WIDTH.min(group.count - at) {
-                    radiance[usize::from(group.pixel[at + k])] += seen.lane(k);
-                }
-            }
-        }
-    }
-
     /// What a mirror of that gloss throws back.
     #[inline(always)]
     fn mirror<L: Lanes>(&mut self, lanes: L, gloss: f64, depth: u32, outside: Option<u32>) {
@@ -211,7 +164,7 @@ impl Tile<'_> {
 /// How far along the normal rays of those directions start from their points, as
 /// [`lancer_kernel::SurfacePoint::leave`] has it.
 #[inline(always)]
-pub(super) fn leaving<L: Lanes>(
+fn leaving<L: Lanes>(
     lanes: L,
     direction: &Vectors<L::Real>,
     normal: &Vectors<L::Real>,

@@ -68,22 +68,28 @@ impl Leaves {
     pub(super) fn filter<E: Eight>(&self, lanes: E, shear: &Shear) -> Filter<E> {
         let ([x, y, z], [u, v]) = (shear.axes(), shear.slopes());
         let origin = shear.origin();
+        let [first, second] = shear.others();
         Filter {
             lanes,
             axes: [x, y, z],
             origin: [lanes.double(origin[x]), lanes.double(origin[y]), lanes.double(origin[z])],
             slopes: [lanes.double(u), lanes.double(v)],
+            longest: lanes.double(shear.longest()),
+            inverses: [lanes.double(1.0 / first), lanes.double(1.0 / second)],
+            moves: [first != 0.0, second != 0.0],
         }
     }
 
-    /// Calls `met` with the number of each triangle there that the ray goes through.
+    /// Calls `met` with the number of each triangle there that the ray goes through, and
+    /// the t, if that is more than `from` and at most `to`.
     #[inline(always)]
     pub(super) fn each<E: Eight>(
         &self,
         filter: &Filter<E>,
         shear: &Shear,
         places: Range<usize>,
-        mut met: impl FnMut(u32, Meeting),
+        (from, to): (f64, f64),
+        mut met: impl FnMut(u32, f64),
     ) {
         let first = ROWS * places.start;
         // Bits that are known to the compiler, so that rows are read unchecked.
@@ -91,33 +97,29 @@ impl Leaves {
         match &self.rows {
             Rows::Single(rows) => {
                 let Some(leaf) = rows.get(first..).and_then(<[f32]>::first_chunk) else { return };
-                let candidates = filter.candidates(
+                filter.each(
                     count,
+                    (from, to),
                     #[inline(always)]
                     |at| filter.lanes.widened(eight(leaf, at)),
+                    #[inline(always)]
+                    |lane| shear.meet_turned(&corners(leaf, count, lane, shear.axes())),
+                    #[inline(always)]
+                    |lane, t| met(self.order[places.start + lane], t),
                 );
-                for lane in lanes_of(candidates) {
-                    if let Some(meeting) =
-                        shear.meet_turned(&corners(leaf, count, lane, shear.axes()))
-                    {
-                        met(self.order[places.start + lane], meeting);
-                    }
-                }
             }
             Rows::Double(rows) => {
                 let Some(leaf) = rows.get(first..).and_then(<[f64]>::first_chunk) else { return };
-                let candidates = filter.candidates(
+                filter.each(
                     count,
+                    (from, to),
                     #[inline(always)]
                     |at| filter.lanes.doubles(eight(leaf, at)),
+                    #[inline(always)]
+                    |lane| shear.meet_turned(&corners(leaf, count, lane, shear.axes())),
+                    #[inline(always)]
+                    |lane, t| met(self.order[places.start + lane], t),
                 );
-                for lane in lanes_of(candidates) {
-                    if let Some(meeting) =
-                        shear.meet_turned(&corners(leaf, count, lane, shear.axes()))
-                    {
-                        met(self.order[places.start + lane], meeting);
-                    }
-                }
             }
         }
     }
@@ -153,13 +155,6 @@ fn corners<T: Copy + Into<f64>>(
     ]
 }
 
-/// The two products whose order says on which side of the line from p to q the ray
-/// goes by.
-#[inline(always)]
-fn products<D: Doubles>(p: [D; 2], q: [D; 2]) -> [D; 2] {
-    [p[0] * q[1], p[1] * q[0]]
-}
-
 fn fill<T>(rows: &mut [T], places: Range<usize>, coordinate: impl Fn(usize, usize) -> T) {
     let (first, count) = (ROWS * places.start, places.len());
     for (lane, place) in places.enumerate() {
@@ -175,18 +170,91 @@ pub(super) struct Filter<E: Eight> {
     axes: [usize; 3],
     origin: [E::Doubles; 3],
     slopes: [E::Doubles; 2],
+    longest: E::Doubles,
+    inverses: [E::Doubles; 2],
+    moves: [bool; 2],
+}
+
+/// A corner of each of eight triangles as [`Shear`] sees it, and before that.
+#[derive(Clone, Copy)]
+struct Corner<D> {
+    from_origin: [D; 3],
+    x: D,
+    y: D,
+}
+
+/// The two products whose order says on which side of the line from p to q the ray
+/// goes by.
+#[derive(Clone, Copy)]
+struct Products<D> {
+    p: Corner<D>,
+    q: Corner<D>,
+    first: D,
+    second: D,
+}
+
+impl<D: Doubles> Products<D> {
+    #[inline(always)]
+    fn new(p: Corner<D>, q: Corner<D>) -> Self {
+        Self { p, q, first: p.x * q.y, second: p.y * q.x }
+    }
+
+    /// Their difference as [`difference_of_products`](crate::shapes::exact::difference_of_products)
+    /// has it.
+    #[inline(always)]
+    fn area(&self) -> D {
+        let lost = self.p.y.mul_add(self.q.x, -self.second);
+        self.p.x.mul_add(self.q.y, -self.second) - lost
+    }
 }
 
 impl<E: Eight> Filter<E> {
-    /// Those that the ray may go through.
+    /// Calls `met` with the lanes of those that the ray goes through, and the t, if that is
+    /// more than `from` and at most `to`. What `meet` says of one triangle, lanes say of
+    /// eight, but where two products are equal, so that what they lost decides.
     #[inline(always)]
-    fn candidates(&self, count: usize, row: impl Fn(usize) -> E::Doubles) -> u32 {
+    fn each(
+        &self,
+        count: usize,
+        (from, to): (f64, f64),
+        row: impl Fn(usize) -> E::Doubles,
+        meet: impl Fn(usize) -> Option<Meeting>,
+        mut met: impl FnMut(usize, f64),
+    ) {
         let [a, b, c] =
             [self.see(0, count, &row), self.see(3, count, &row), self.see(6, count, &row)];
-        let [i, j, k] = [products(b, c), products(c, a), products(a, b)];
-        let left = i[0].ge(i[1]) & j[0].ge(j[1]) & k[0].ge(k[1]);
-        let right = i[0].le(i[1]) & j[0].le(j[1]) & k[0].le(k[1]);
-        (left | right).bits() & ((1 << count) - 1)
+        let [i, j, k] = [Products::new(b, c), Products::new(c, a), Products::new(a, b)];
+        let left = i.first.ge(i.second) & j.first.ge(j.second) & k.first.ge(k.second);
+        let right = i.first.le(i.second) & j.first.le(j.second) & k.first.le(k.second);
+        let candidates = (left | right).bits() & ((1 << count) - 1);
+        if candidates == 0 {
+            return;
+        }
+        let mut unsure = candidates;
+        if self.lanes.fuses() {
+            let left = i.first.gt(i.second) & j.first.gt(j.second) & k.first.gt(k.second);
+            let right = i.first.lt(i.second) & j.first.lt(j.second) & k.first.lt(k.second);
+            let t = self.distances([a, b, c], [i.area(), j.area(), k.area()]);
+            let is_met = left | right;
+            unsure &= !is_met.bits();
+            let is_near = t.gt(self.lanes.double(from)) & t.le(self.lanes.double(to));
+            let near = (is_met & is_near).bits() & candidates;
+            if near != 0 {
+                let mut distances = [0.0; 8];
+                t.store(&mut distances);
+                for lane in lanes_of(near) {
+                    met(lane, distances[lane & 7]);
+                }
+            }
+        }
+        for lane in lanes_of(unsure) {
+            if let Some(meeting) = meet(lane)
+                && meeting.t > from
+                && meeting.t <= to
+            {
+                met(lane, meeting.t);
+            }
+        }
     }
 
     /// A corner of each, as `Shear` sees it.
@@ -196,10 +264,42 @@ impl<E: Eight> Filter<E> {
         corner: usize,
         count: usize,
         row: &impl Fn(usize) -> E::Doubles,
-    ) -> [E::Doubles; 2] {
+    ) -> Corner<E::Doubles> {
         let x = row((corner + (self.axes[0] & 3)) * count) - self.origin[0];
         let y = row((corner + (self.axes[1] & 3)) * count) - self.origin[1];
         let z = row((corner + (self.axes[2] & 3)) * count) - self.origin[2];
-        [x - self.slopes[0] * z, y - self.slopes[1] * z]
+        let [u, v] = self.slopes;
+        Corner { from_origin: [x, y, z], x: x - u * z, y: y - v * z }
     }
+
+    /// The t of each, with the operations of [`Shear::meet_turned`].
+    #[inline(always)]
+    fn distances(&self, [a, b, c]: [Corner<E::Doubles>; 3], areas: [E::Doubles; 3]) -> E::Doubles {
+        let sum = areas[0] + areas[1] + areas[2];
+        let weights = [areas[0] / sum, areas[1] / sum, areas[2] / sum];
+        let [az, bz, cz] = [a.from_origin[2], b.from_origin[2], c.from_origin[2]];
+        let depth = weights[0] * az + weights[1] * bz + weights[2] * cz;
+        let depth = within(depth, [az, bz, cz]);
+        let mut t = depth / self.longest;
+        for axis in 0..2 {
+            if self.moves[axis] {
+                let inverse = self.inverses[axis];
+                t = within(
+                    t,
+                    [
+                        a.from_origin[axis] * inverse,
+                        b.from_origin[axis] * inverse,
+                        c.from_origin[axis] * inverse,
+                    ],
+                );
+            }
+        }
+        t
+    }
+}
+
+/// The number moved to where it is between the least and the most of three.
+#[inline(always)]
+fn within<D: Doubles>(x: D, [a, b, c]: [D; 3]) -> D {
+    x.least(a.most(b).most(c)).most(a.least(b).least(c))
 }

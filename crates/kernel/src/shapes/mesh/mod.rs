@@ -115,8 +115,10 @@ impl Primitive for Facets {
     /// has least of.
     fn cell(&self, contact: &Contact, _part: u32, checker: &Checker) -> Cell {
         let axis = contact.normal.iamax();
-        let at = contact.point.coords / checker.length.get();
-        checker::cell(at[(axis + 1) % 3], at[(axis + 2) % 3])
+        let length = checker.length.get();
+        let at = contact.point.coords / length;
+        let slack = checker::slack(contact.error, length);
+        checker::cell([at[(axis + 1) % 3], at[(axis + 2) % 3]], [slack; 2])
     }
 
     fn bounds(&self) -> Option<Bounds> {
@@ -200,10 +202,11 @@ impl Work for Each<'_> {
                     &filter,
                     &shear,
                     places,
+                    (from, to),
                     #[inline(always)]
-                    |triangle, met| {
-                        if met.t > from && met.t < to {
-                            found(Crossing { t: met.t, part: triangle });
+                    |triangle, t| {
+                        if t < to {
+                            found(Crossing { t, part: triangle });
                         }
                     },
                 );
@@ -228,11 +231,11 @@ impl Facets {
             filter,
             shear,
             places,
+            (0.0, nearest.t),
             #[inline(always)]
-            |triangle, met| {
-                let is_first = met.t == nearest.t && triangle < nearest.part;
-                if met.t > 0.0 && (met.t < nearest.t || is_first) {
-                    nearest = Crossing { t: met.t, part: triangle };
+            |triangle, t| {
+                if t < nearest.t || t == nearest.t && triangle < nearest.part {
+                    nearest = Crossing { t, part: triangle };
                 }
             },
         );
