@@ -4,6 +4,7 @@
 use super::dd::Dd;
 use super::figure::WAVER;
 use super::space::{Line, Long};
+use lancer_math::Vector;
 
 #[derive(Debug)]
 pub(crate) struct Side {
@@ -17,6 +18,8 @@ pub(crate) struct Side {
     widening: Dd,
     /// The length of a straight line on it, from end to end.
     slant: Dd,
+    /// A unit vector across the axis.
+    across: Long,
 }
 
 /// Where a line is within the side, which has no ends here.
@@ -41,6 +44,7 @@ impl Side {
             radius: Dd::from(base_radius),
             widening,
             slant: (axis_squared + widening.square()).sqrt(),
+            across: axis.cross(Long::from(Vector::ith(axis.round().iamin(), 1.0))).unit(),
         }
     }
 
@@ -72,8 +76,15 @@ impl Side {
         beyond * self.height / self.slant
     }
 
+    /// The unit vector away from the axis; on the axis, but for roundings, any is as good.
+    fn outward(&self, point: Long) -> Long {
+        let radial = self.radial(point);
+        let is_apart = radial.norm().round() > 1e-22 * self.slant.round();
+        if is_apart { radial.unit() } else { self.across }
+    }
+
     pub(crate) fn normal(&self, point: Long) -> Long {
-        let out = self.radial(point).unit().times(self.height * self.height);
+        let out = self.outward(point).times(self.height * self.height);
         (out - self.axis.times(self.widening)).times(Dd::ONE / (self.height * self.slant))
     }
 

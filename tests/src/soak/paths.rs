@@ -150,7 +150,17 @@ fn note(found: &mut Vec<Disagreement>, ray: usize, what: impl FnOnce() -> String
 #[derive(Debug, PartialEq)]
 struct Answers {
     all: Vec<Hit>,
-    point: Option<(Point, f64, [Vector; 2], [f64; 3], [u32; 2])>,
+    point: Option<Met>,
+}
+
+/// All of a surface point but how it looks.
+#[derive(Debug, PartialEq)]
+struct Met {
+    point: Point,
+    error: f64,
+    normals: [Vector; 2],
+    albedo: [f64; 3],
+    names: [u32; 2],
 }
 
 impl Answers {
@@ -158,7 +168,8 @@ impl Answers {
         let all = prepared.all(ray, (f64::NEG_INFINITY, f64::INFINITY), Which::All);
         let point = hit.as_ref().map(|hit| {
             let s = prepared.expand(ray, hit);
-            (s.point, s.error, [s.normal, s.shading], s.albedo, [s.shape, s.item])
+            let (normals, names) = ([s.normal, s.shading], [s.shape, s.item]);
+            Met { point: s.point, error: s.error, normals, albedo: s.albedo, names }
         });
         Self { all, point }
     }

@@ -120,7 +120,7 @@ impl Run {
             }
             let next = judge(case, &flight.asked, (hit, &entries), &mut flight.rng, tally);
             let failed = tally.failures() > before;
-            if failed || is_close(&entries) || mix(flight.id.ray_seed()) % SEEDED == 0 {
+            if failed || is_close(&entries) || mix(flight.id.ray_seed()).is_multiple_of(SEEDED) {
                 tally.judged();
                 if let Some(what) = self.oracle.contradiction(case, &ray, &entries) {
                     tally.complain(case, &ray, Wrong::Overruled, what);
