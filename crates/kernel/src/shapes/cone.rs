@@ -237,13 +237,11 @@ impl Primitive for Barrel {
         let at = stepped(&ray.origin, &self.narrow, crossing.t, &ray.direction);
         let (z, across) = self.split(&at);
         let distance = across.norm();
-        let apart = distance > 0.0;
-        // On the axis, at an apex or where a thin end is seen from afar, the side that the
-        // ray comes from.
-        let outward = if apart {
+        let outward = if distance > 0.0 {
             across / distance
         } else {
-            // On the axis: at the apex, or where a thin end is hit from afar.
+            // On the axis, at the apex or where a thin end is hit from afar: the side that
+            // the ray comes from.
             let (_, sideward) = self.split(&ray.direction);
             unit(-sideward).unwrap_or(self.frame.first)
         };
