@@ -2,7 +2,7 @@
 //!
 //! Tried without a gain that could be told from noise: rays that are followed in turns,
 //! a step each; children sorted without a branch; nodes at multiples of 256 bytes;
-//! rays of meshes of a few megabytes sorted in fewer passes, or not at all.
+//! rays sorted in fewer passes.
 //! Children in no order behind the nearest one were slower.
 
 use super::Hierarchy;
