@@ -1,6 +1,6 @@
 //! Directions of rays from the eye do not depend on where the eye is.
 
-use super::picture::bits;
+use super::films::bits;
 use lancer_integrator::{RenderSettings, Rendered, engine_by_name, render};
 use lancer_scene::{Camera, Colour, Light, Scene, Shape, Surface};
 

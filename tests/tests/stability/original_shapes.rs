@@ -1,7 +1,7 @@
 //! Scenes in which the original program gets shapes wrong. `classic` and `direct` keep
 //! its answers, number by number; `whitted` gets them right.
 
-use super::picture::film;
+use super::films::film;
 use lancer_film::Film;
 use lancer_output::to_rgb8;
 use lancer_scene::Scene;

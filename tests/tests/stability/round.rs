@@ -2,7 +2,7 @@
 //! to a line of the side, and through the apex.
 
 use super::asked::{Asked, GREY, Made, assert_near, ray, signs_of_zeros, ulp};
-use super::picture::{brightness, film};
+use super::films::{brightness, film};
 use fastrand::Rng;
 use lancer_kernel::Which;
 use lancer_math::{Point, Ray, Vector};

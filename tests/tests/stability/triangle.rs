@@ -2,7 +2,7 @@
 //! from the origin, without area. What is decided is compared with whole numbers.
 
 use super::asked::{Asked, GREY, assert_near, direction, ray, signs_of_zeros};
-use super::picture::{bits, film};
+use super::films::{bits, film};
 use fastrand::Rng;
 use lancer_kernel::Which;
 use lancer_math::{Point, Ray, Vector};

@@ -58,7 +58,7 @@ enum Kind<'a> {
 
 impl ListedShape<'_> {
     /// The points of hits that a register of rays has with it;
-    /// [`Prepared::expand`] gives the same, one by one.
+    /// [`Prepared::expand`](crate::Prepared::expand) gives the same, one by one.
     #[inline(always)]
     pub fn points<L: Lanes>(&self, rays: &Rays<L>, t: L::Real) -> LanePoints<L::Real> {
         let (point, error, normal) = match self.0 {
