@@ -2,8 +2,8 @@
 //!
 //! A line of pixels may lie exactly on a border, where rounding would tell at random on
 //! which side of it each is. So what is no farther below a border than the error of its
-//! point belongs to the cell above it, wherever the scene is and from whichever side it
-//! is seen.
+//! point belongs to the cell above it, from whichever side it is seen and wherever the scene is,
+//! as long as its points are known to a millionth of a cell.
 
 use crate::lanes::{Lanes, Mask, Real, Vectors};
 use crate::primitive::Cell;

@@ -95,3 +95,4 @@ pub use listed::{Candidates, Goal, LaneHits, LanePoints, ListedShape};
 pub use prepared::{Prepared, Which};
 pub use rays::Rays;
 pub use settings::{Culling, KernelSettings};
+pub use shapes::sphere::LEAST_RADIUS;

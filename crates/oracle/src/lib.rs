@@ -4,7 +4,8 @@
 //! rounding as far as it goes: whether a line meets a shape is the sign of an exact
 //! number. Where it meets it is right to as many bits as are asked for. Everything
 //! is written from textbooks in the simplest form that is right, is slow, and shares
-//! no formula with the crates that it judges; no crate of the program may use it.
+//! no formula with the crates that it judges, but what a mesh says of itself (whether it is
+//! closed, and its signed volume); no crate of the program may use it.
 //!
 //! ```
 //! use lancer_math::{Point, Ray, Vector};

@@ -1,3 +1,5 @@
+use super::figure::BAND;
+
 /// What the scenes of a soak consist of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[expect(
@@ -75,6 +77,17 @@ impl Kind {
             Self::ClosedMesh => "closed-mesh",
             Self::OpenMesh => "open-mesh",
             Self::Mixed => "mixed",
+        }
+    }
+
+    /// Which other answer may be found at most, as a share of the size of the scene seen
+    /// from a ray: of what has no edges but its own, eight units in the last place; elsewhere
+    /// lines of a thin or flat side are found or not within the whole band.
+    pub(crate) const fn widest(self) -> f64 {
+        match self {
+            Self::OpenCylinder | Self::OpenCone | Self::OpenFrustum => BAND,
+            Self::ClosedMesh | Self::OpenMesh | Self::Mixed => BAND,
+            _ => 8.0 * f64::EPSILON,
         }
     }
 

@@ -123,6 +123,11 @@ impl Copied {
                 seen.hold(name, ray, hit.as_ref(), expected.as_ref(), *any);
             }
         }
+        for (ray, hit) in rays.iter().zip(&first) {
+            if hit.is_some_and(|hit| slips_through(&self.ways[0].1, ray, &hit)) {
+                seen.leaked("it enters what it is in", ray, hit.as_ref());
+            }
+        }
         // One by one, with the most lanes.
         let (_, prepared) = &self.ways[0];
         for (ray, expected) in rays.iter().zip(&first) {
@@ -159,19 +164,35 @@ impl Leaks {
         expected: Option<&Hit>,
         any: bool,
     ) {
-        let (leaks, differs) = (hit.is_none(), hit != expected || any != hit.is_some());
-        if !leaks && !differs {
-            return;
+        if hit.is_none() {
+            self.leaked(name, ray, hit);
         }
-        self.leaks += u64::from(leaks);
-        self.disagreements += u64::from(differs);
+        if hit != expected || any != hit.is_some() {
+            self.disagreements += 1;
+            self.tell(format!("{name}: {hit:?} ({any}), not {expected:?}:"), ray);
+        }
+    }
+
+    fn leaked(&mut self, why: &str, ray: &Ray, hit: Option<&Hit>) {
+        self.leaks += 1;
+        self.tell(format!("{why}: {hit:?}:"), ray);
+    }
+
+    fn tell(&mut self, mut what: String, ray: &Ray) {
         if self.told.len() < 5 {
-            let mut what = format!("{name}: {hit:?} ({any}), not {expected:?}:");
             _ = write!(what, " {:?}", ray.origin.coords.map(f64::to_bits));
             _ = write!(what, " {:?}", ray.direction.map(f64::to_bits));
             self.told.push(what);
         }
     }
+}
+
+/// Whether a ray from inside has gone through the surface before that hit: it enters
+/// there, and as often as it leaves. Where it leaves and enters at once, the hit
+/// may be either.
+fn slips_through(prepared: &Prepared, ray: &Ray, hit: &Hit) -> bool {
+    prepared.expand(ray, hit).normal.dot(&ray.direction) <= 0.0
+        && prepared.all(ray, (0.0, f64::INFINITY), Which::All).len().is_multiple_of(2)
 }
 
 /// Turned, stretched a little, and put up to a thousand sizes away.

@@ -41,6 +41,10 @@ impl Report {
             let error = total.error;
             problems.push(format!("points are told to be off by {error:e} of the scene"));
         }
+        if total.widest > self.kind.widest() {
+            let ulps = total.widest / f64::EPSILON;
+            problems.push(format!("other answers are found up to {ulps:.1} ulp off"));
+        }
         let easy = self.tally.counts().filter(|(class, _)| class.is_easy());
         let (rays, in_band) =
             easy.fold((0, 0), |(rays, n), (_, count)| (rays + count.rays, n + count.in_band));

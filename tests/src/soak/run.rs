@@ -30,8 +30,11 @@ pub fn soak(kind: Kind, seed: u64, rays: u64) -> Report {
             let count = RAYS.min(rays - case * RAYS);
             let tally = catch_unwind(AssertUnwindSafe(|| Run::new(id).all(count)));
             tally.unwrap_or_else(|panic| {
-                let what = panic.downcast_ref::<String>().map_or("", String::as_str);
-                let what = format!("panicked: {what}");
+                let text = panic.downcast_ref::<String>().map(String::as_str);
+                let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
+                let what = format!("panicked: {}", text.unwrap_or("without a word"));
+                // Asking the last one again asks all.
+                let id = Id { ray: count - 1, ..id };
                 Tally::of_failure(Failure { id: Some(id), what })
             })
         })

@@ -79,7 +79,7 @@ fn tested() -> BTreeSet<String> {
     let mut numbers = BTreeSet::new();
     for path in all_with_extension(&top().join("tests/tests/stability"), "rs") {
         let text = std::fs::read_to_string(&path).expect("it is there");
-        // What is not a test, like a helper, does not count.
+        // What is not a test, like a function that tests call, does not count.
         for after in text.split("#[test]\n").skip(1) {
             let Some(name) = after.trim_start().strip_prefix("fn ") else { continue };
             if let Some((number, _)) = name.split_once('_') {

@@ -3,8 +3,9 @@
 
 use super::asked::{Asked, GREY, assert_near, direction, ray, ulp};
 use fastrand::Rng;
+use lancer_integrator::engine_by_name;
 use lancer_math::{Point, Ray, Vector};
-use lancer_scene::Shape;
+use lancer_scene::{Camera, Scene, Shape};
 
 fn sphere(centre: [f64; 3], radius: f64) -> Asked {
     Asked::one(Shape::sphere(centre, radius, GREY))
@@ -180,6 +181,33 @@ fn s6_radii() {
             } else {
                 assert_eq!(ball.t(&through), None, "{radius}");
             }
+        }
+    }
+}
+
+/// Those that are never met are told of, and change nothing about what else is there.
+#[test]
+fn s6_those_that_are_never_met() {
+    let good =
+        [Shape::sphere([0.0; 3], 1.0, GREY), Shape::plane([0.0, 0.0, -1.0], [0.0, 0.0, 1.0], GREY)];
+    let mut rng = Rng::with_seed(7);
+    let rays: Vec<Ray> =
+        (0..500).map(|_| Ray::new(Point::new(0.0, 0.0, 3.0), direction(&mut rng))).collect();
+    let expected = Asked::new(good.clone()).nearest_each(&rays, f64::INFINITY);
+    assert!(expected.iter().flatten().count() > 200);
+    let whitted = engine_by_name("whitted").expect("there is such an engine");
+    for (radius, is_met) in [(1e-150, false), (1e-140, true), (1e150, true), (1e160, false)] {
+        let odd = Shape::sphere([0.0, 0.0, 1e-300], radius, GREY);
+        let scene = Scene::builder()
+            .camera(Camera::new([0.0, 0.0, 5.0], [0.0; 3], 1.5, [8, 8]))
+            .shape(odd.clone())
+            .build()
+            .expect("valid");
+        let warnings = whitted.warnings(&scene);
+        assert_eq!(!is_met, warnings.iter().any(|w| w.starts_with("shape 1, a sphere,")));
+        if !is_met {
+            let asked = Asked::new(good.clone().into_iter().chain([odd]));
+            assert_eq!(asked.nearest_each(&rays, f64::INFINITY), expected, "{radius}");
         }
     }
 }

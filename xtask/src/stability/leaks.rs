@@ -4,9 +4,9 @@ use super::StabilityArgs;
 use crate::{Failure, fail};
 use lancer_mesh::MeshFormat;
 use lancer_scene::Mesh;
+use lancer_tests::paths;
 use lancer_tests::soak::{closed, leaks};
 use std::fmt::Write;
-use std::path::PathBuf;
 use std::time::Instant;
 
 /// Asks the rays, prints what was found, and returns it as a section.
@@ -45,20 +45,15 @@ pub(super) fn run(args: &StabilityArgs, rays: u64) -> Result<(String, bool), Fai
     Ok((section, is_good))
 }
 
-/// Those that are made, and one from a file where its folder is known.
+/// Those that are made, and one from a file.
 fn meshes() -> Result<Vec<(&'static str, Mesh)>, Failure> {
     let mut meshes =
         vec![("ball", closed::ball(24)), ("box", closed::block(16)), ("ring", closed::ring(80))];
-    match std::env::var_os("LANCER_MESHES") {
-        None => println!("LANCER_MESHES does not name a folder with spot.obj: it is left out"),
-        Some(folder) => {
-            let bytes = std::fs::read(PathBuf::from(folder).join("spot.obj")).map_err(fail)?;
-            let spot = lancer_mesh::load(&bytes, MeshFormat::Obj, None).map_err(fail)?;
-            if !spot.is_closed() {
-                return Err(fail("spot.obj is not closed"));
-            }
-            meshes.push(("spot.obj", spot));
-        }
+    let bytes = std::fs::read(paths::scenes().join("meshes/spot.obj")).map_err(fail)?;
+    let spot = lancer_mesh::load(&bytes, MeshFormat::Obj, None).map_err(fail)?;
+    if !spot.is_closed() {
+        return Err(fail("spot.obj is not closed"));
     }
+    meshes.push(("spot.obj", spot));
     Ok(meshes)
 }

@@ -15,12 +15,11 @@ use clap::Args;
 pub(crate) struct StabilityArgs {
     /// Ask so many rays, ordinary ones and such as are made to be difficult, of all kinds of
     /// shapes, by every path through the kernel, and compare with longer numbers
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     rays: Option<u64>,
 
-    /// Send so many rays from inside at closed meshes: some that are made, and spot.obj if
-    /// LANCER_MESHES names its folder
-    #[arg(long, value_name = "N")]
+    /// Send so many rays from inside at closed meshes: some that are made, and spot.obj
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     leaks: Option<u64>,
 
     /// Draw where methods fail: docs/stability/*.svg
@@ -36,7 +35,7 @@ pub(crate) struct StabilityArgs {
     seed: u64,
 
     /// Only shapes of this kind
-    #[arg(long, value_name = "KIND")]
+    #[arg(long, value_name = "KIND", requires = "rays", conflicts_with = "write")]
     shape: Option<String>,
 
     /// Ask one ray again, by the id that its failure was printed with, and tell all about it

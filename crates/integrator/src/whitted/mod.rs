@@ -12,7 +12,7 @@ mod view;
 
 use crate::{Engine, Tracer};
 use lancer_film::Display;
-use lancer_kernel::KernelSettings;
+use lancer_kernel::{KernelSettings, LEAST_RADIUS};
 use lancer_scene::{Geometry, Group, InvalidField, OutOfRange, Placed, Scene, Shape};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -73,9 +73,9 @@ impl Default for Whitted {
     }
 }
 
-/// A camera whose coordinates are up to so many times its distance to the target, 2^30,
-/// sees what is there in steps that are too small to be noticed: pictures of one scene,
-/// moved so far, differ in no more than a pixel in a thousand.
+/// Of a camera whose coordinates are up to so many times its distance to the target, 2^30,
+/// steps are too small for most pictures to show: of one scene, moved nearly so far, no more
+/// than a pixel in a thousand is another by a level of 255.
 const FARTHEST: f64 = 1_073_741_824.0;
 
 /// Coordinates up to this can be squared, and the result multiplied with
@@ -115,7 +115,7 @@ impl Engine for Whitted {
             ));
         }
         let mut groups = BTreeSet::new();
-        open_media(&scene.shapes, "", &mut warnings);
+        of_shapes(&scene.shapes, "", &mut warnings);
         in_groups(&scene.groups, &mut groups, &mut warnings);
         warnings
     }
@@ -132,16 +132,26 @@ fn in_groups(groups: &[Placed], seen: &mut BTreeSet<*const Group>, warnings: &mu
                 .group
                 .name()
                 .map_or_else(|| " of a group".to_owned(), |name| format!(" of `{name}`"));
-            open_media(placed.group.shapes(), &of, warnings);
+            of_shapes(placed.group.shapes(), &of, warnings);
             in_groups(placed.group.groups(), seen, warnings);
         }
     }
 }
 
-/// Transparent shapes that enclose nothing, so that light enters their medium
-/// and never leaves it.
-fn open_media(shapes: &[Shape], of: &str, warnings: &mut Vec<String>) {
+/// Spheres that are too small or too large to be met; and transparent shapes that enclose nothing, so
+/// that light enters their medium and never leaves it.
+fn of_shapes(shapes: &[Shape], of: &str, warnings: &mut Vec<String>) {
     for (i, shape) in shapes.iter().enumerate() {
+        if let Geometry::Sphere(sphere) = &shape.geometry
+            && let radius = sphere.radius.get()
+            && (radius < LEAST_RADIUS || radius * radius == f64::INFINITY)
+        {
+            warnings.push(format!(
+                "shape {}{of}, a sphere, is not seen, since the square of its radius leaves the \
+                 range of numbers: scale the scene",
+                i + 1
+            ));
+        }
         if !shape.surface.has_medium() || shape.geometry.is_closed() {
             continue;
         }

@@ -10,7 +10,7 @@ use crate::primitive::Primitive;
 use crate::shapes::mesh::Facets;
 use crate::shapes::plane::HalfSpace;
 use crate::shapes::primitive;
-use crate::shapes::sphere::Ball;
+use crate::shapes::sphere::{Ball, LEAST_RADIUS};
 use lancer_math::{Bounds, Placement};
 use lancer_scene::{Geometry, Group, Mesh, Placed, Scene, Shape};
 use std::collections::BTreeMap;
@@ -100,6 +100,8 @@ impl Builder {
                 return;
             }
         }
+        // It has a number, but no ray needs to be held against it.
+        let is_met = !matches!(&shape.geometry, Geometry::Sphere(sphere) if sphere.radius.get() < LEAST_RADIUS);
         let primitive = match &shape.geometry {
             Geometry::Mesh(mesh) => {
                 let known = self.meshes.entry(Arc::as_ptr(mesh));
@@ -114,7 +116,7 @@ impl Builder {
         }
         if let Geometry::Plane(plane) = &shape.geometry {
             parts.planes.push((number, HalfSpace::new(plane), is_transparent));
-        } else {
+        } else if is_met {
             parts.enter(Entry::other(parts.others.len()), bounds);
         }
         parts.others.push(Other { primitive, shape: number, is_transparent, is_solid });

@@ -196,8 +196,9 @@ impl<R: Real> Balls<R> {
     }
 }
 
-/// 2^-480: of its square, all digits of a double and of what it loses are in range.
-const LEAST_RADIUS: f64 = f64::from_bits((1023 - 480) << 52);
+/// Spheres with a smaller radius are never met: 2^-480, in units of length. Of its
+/// square, all digits of a double and of what it loses are in range.
+pub const LEAST_RADIUS: f64 = f64::from_bits((1023 - 480) << 52);
 
 impl Ball {
     /// With a radius that is no number where it is too small to be met.

@@ -41,7 +41,7 @@ pub(super) fn run() -> Result<String, Failure> {
          must have told it. Those of the mesh are a plain tree of boxes, the same for both, one ray at a time, with Möller's and Trumbore's test or with \
          Lancer's; Lancer's own hierarchy is another.\n\n\
          In the whole picture of the README, {} x {} pixels in {} ms on one thread by `whitted`, it is {} ms for all of these {} rays: **with the textbook's \
-         forms it would be {} times as fast at most**. Not compared: the points of hits, which \
+         forms for these it would be {} times as fast**. Not compared: the points of hits, which \
          Lancer puts back onto surfaces with a bound, and transparent things.",
         PIXELS[0],
         PIXELS[1],

@@ -3,10 +3,11 @@
 //!
 //! The nine coordinates of n triangles are nine rows of n numbers, without gaps:
 //! in single precision where that holds all of them exactly. A row is read eight
-//! numbers wide; what is behind its end is not looked at. What eight triangles tell
-//! at once is which of them cannot be met, since rounding keeps the order of two
-//! products unless it makes them equal; the others, hardly ever two, are met one by
-//! one as `edges.rs` decides.
+//! numbers wide; what is behind its end is not looked at. Rounding keeps the
+//! order of two products unless it makes them equal, so lanes decide for eight triangles at
+//! once, and find where they are met with the operations of `edges.rs`; only where
+//! products are equal, or fusing is no instruction, those that may be met are met one by one as
+//! `edges.rs` has it.
 
 use crate::hierarchy::Hierarchy;
 use crate::lanes::{Answers, Doubles, Eight, lanes_of};
