@@ -82,11 +82,12 @@ impl Kind {
 
     /// Which other answer may be found at most, as a share of the size of the scene seen
     /// from a ray: of what has no edges but its own, eight units in the last place; elsewhere
-    /// lines of a thin or flat side are found or not within the whole band.
+    /// lines of a thin or flat side, and of a ring where it is nearly flat, are found or not
+    /// within the whole band.
     pub(crate) const fn widest(self) -> f64 {
         match self {
             Self::OpenCylinder | Self::OpenCone | Self::OpenFrustum => BAND,
-            Self::ClosedMesh | Self::OpenMesh | Self::Mixed => BAND,
+            Self::Torus | Self::ClosedMesh | Self::OpenMesh | Self::Mixed => BAND,
             _ => 8.0 * f64::EPSILON,
         }
     }
