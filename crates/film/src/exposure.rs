@@ -64,7 +64,8 @@ const FEWEST: i32 = -128 * STEPS;
 const MOST: i32 = 149 * STEPS;
 
 impl LightMeter {
-    /// One that has seen no pixel yet, of a frame of at most so many.
+    /// One that has seen no pixel yet, of a frame of at most so many. If it is shown
+    /// more than that, what is forgotten may matter.
     #[must_use]
     pub fn new(pixels: u64) -> Self {
         Self {
