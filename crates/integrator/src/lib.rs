@@ -28,8 +28,10 @@ mod counts;
 mod direct;
 mod enclose;
 mod engine;
+mod numbers;
 mod render;
 mod rows;
+mod samples;
 mod whitted;
 
 pub use classic::camera::PinholeCamera;
@@ -39,5 +41,7 @@ pub use counts::{RayCounts, Trouble, Troubles};
 pub use direct::Direct;
 pub use engine::{Engine, Rgb, Tracer, engine_by_name, engines};
 pub use lancer_kernel::{Culling, KernelSettings, lanes::Width};
+pub use numbers::Stream;
 pub use render::{Progress, RenderError, RenderSettings, Rendered, TILE_SIDE, render};
+pub use samples::{MOST_SAMPLES, Sample, Sampler, Seen};
 pub use whitted::Whitted;
