@@ -5,7 +5,7 @@
 //! differences to the true one, in exposed linear units clipped to 0 to 1 after averaging
 //! ([`Picture::error`]). What it is held against is made by brute force, in a way that
 //! shares nothing with how pictures are sampled, and says how wrong it is itself
-//! ([`reference`]).
+//! ([`reference()`]).
 //!
 //! Time against error makes a [`Comparison`]: some of its points are beaten by none
 //! ([`Comparison::front`]), and on one of these time is spent best ([`Comparison::knee`]). It

@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// How a reference is made.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub struct ReferenceSettings<'a> {
     /// Its pixels.
     pub size: Size,
@@ -21,8 +21,9 @@ pub struct ReferenceSettings<'a> {
     pub factor: f64,
     /// It is good enough with this error at most.
     pub error: f64,
-    /// No more samples for each pixel than this, be it good enough or not; at least 2.
-    pub most_samples: u32,
+    /// Is asked whether it may be made anew with so many samples for each pixel, before it
+    /// is.
+    pub may_grow: &'a (dyn Fn(u32) -> bool + Sync),
     /// Another seed gives another draw.
     pub seed: u64,
     /// Where this becomes true there is none.
@@ -52,25 +53,28 @@ const FEWEST: u32 = 16;
 /// `None` where that was cancelled.
 #[must_use]
 pub fn reference(sampler: &dyn Sampler, settings: &ReferenceSettings<'_>) -> Option<Reference> {
-    let most = (f64::from(settings.most_samples.max(2)) / 2.0).sqrt() as u32;
-    let mut side = FEWEST.min(most);
-    // Along an edge the error of n x n samples is as n^-1.5, of what the places say nothing
-    // about it is as n^-1.
-    let mut power = 1.5;
+    // n, and how n^-power the error is: along an edge that of n x n samples is as n^-1.5, and
+    // what has nothing to do with the place in the pixel as n^-1.
+    let (mut side, mut power) = (FEWEST, 1.5);
     loop {
         let found = halves(sampler, settings, side)?;
-        if found.error <= settings.error || side >= most {
+        if found.error <= settings.error {
             return Some(found);
         }
         // A bit more than seems to be needed, so that it is not done all over for nothing.
         let missing = 1.1 * found.error / settings.error;
         let times = libm::pow(missing, 1.0 / power).clamp(1.2, 8.0);
-        let next = libm::ceil(f64::from(side) * times).min(f64::from(most)) as u32;
-        side = next.max(side + 1);
+        side = libm::ceil(f64::from(side) * times) as u32;
+        if side > MOST || !(settings.may_grow)(2 * side * side) {
+            return Some(found);
+        }
         // What stays behind the first hope is more like noise.
-        power = (power - 0.2_f64).max(1.0);
+        power = 1.0;
     }
 }
+
+/// n in the end: twice its square is a number of samples.
+const MOST: u32 = 46_340;
 
 /// The mean of two pictures with side x side samples for each pixel, and what they say.
 fn halves(sampler: &dyn Sampler, settings: &ReferenceSettings<'_>, side: u32) -> Option<Reference> {
@@ -85,7 +89,7 @@ fn halves(sampler: &dyn Sampler, settings: &ReferenceSettings<'_>, side: u32) ->
     let found: Vec<Found> = rows.into_iter().flatten().collect();
     let share = 1.0 / (f64::from(side) * f64::from(side));
     let squares = |found: &Found| {
-        let [a, b] = found.sums.map(|sum| exposed(sum.map(|value| value * share), settings.factor));
+        let [a, b] = found.sums.map(|sum| exposed(sum.map(|v| v * share), settings.factor));
         a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>()
     };
     let square: f64 = found.iter().map(squares).sum();
