@@ -18,6 +18,7 @@ mod compare;
 mod export;
 mod files;
 mod interrupt;
+pub mod peers;
 mod preview;
 mod render;
 pub mod report;

@@ -161,7 +161,10 @@ impl Writer<'_> {
         let known = self.groups.values().flatten().count();
         let number = (!body.is_empty()).then_some(known + 1);
         if let Some(number) = number {
-            let _ = write!(self.declared, "#declare Group{number} = union {{\n{body}}}\n");
+            // A line is an object, and one alone is no union.
+            let is_one = body.lines().count() == 1;
+            let body = if is_one { body } else { format!("union {{\n{body}}}\n") };
+            let _ = write!(self.declared, "#declare Group{number} = {body}");
         }
         self.groups.insert(Arc::as_ptr(group), number);
         number
@@ -174,16 +177,17 @@ impl Writer<'_> {
             return;
         };
         look.note(shape, self.shadows, place, self.omissions);
-        let is_hollow = if look.interior.is_empty() { "" } else { " hollow" };
+        // What is not hollow keeps absorption from what is in it, an eye in a room for one.
+        let hollow = if shape.geometry.is_closed() { " hollow" } else { "" };
         if self.shadows == Shadows::Opaque && shape.surface.is_transparent() {
             // What is seen casts no shadow, and what casts one is not seen.
-            let _ = writeln!(text, "{object}{}{is_hollow} no_shadow }}", look.interior);
+            let _ = writeln!(text, "{object}{}{hollow} no_shadow }}", look.interior);
             let dark = Look::dark();
             if let Some(object) = shape::object(shape, &dark) {
-                let _ = writeln!(text, "{object} no_image no_reflection }}");
+                let _ = writeln!(text, "{object}{hollow} no_image no_reflection }}");
             }
         } else {
-            let _ = writeln!(text, "{object}{}{is_hollow} }}", look.interior);
+            let _ = writeln!(text, "{object}{}{hollow} }}", look.interior);
         }
     }
 }

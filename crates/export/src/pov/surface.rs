@@ -3,14 +3,12 @@
 //! An opaque surface with gloss g is `diffuse 1-g reflection g`, which add up. A clear one is
 //! `reflection { g, 1 fresnel }` with `conserve_energy`: with F by Fresnel it mirrors
 //! F + (1-F) g and lets through the rest. One that is partly clear is the average of a matte,
-//! a clear and a mirroring texture, weighted by their shares. What a thin sheet mirrors,
-//! 2 F / (1 + F), is a table by the angle.
+//! a clear and a mirroring texture, weighted by their shares.
 
 use super::checker::Cells;
 use super::rgb;
 use crate::omission::Omissions;
 use crate::text::Number;
-use lancer_math::sin_cos_degrees;
 use lancer_scene::{Geometry, Pattern, Shadows, Shape, Surface};
 use std::fmt::Write;
 
@@ -20,9 +18,6 @@ const FILM: f64 = 6.103_515_625e-5;
 
 /// The darkest component of a matte colour that emission can be a multiple of: 2^-20.
 const DARKEST: f64 = 9.536_743_164_062_5e-7;
-
-/// How many angles there are in the table of a thin sheet.
-const ANGLES: u32 = 64;
 
 /// A surface as it is written.
 pub(super) struct Look<'a> {
@@ -148,6 +143,14 @@ impl<'a> Look<'a> {
                 "let them not overlap",
             );
         }
+        if surface.thin {
+            omissions.add(
+                place,
+                "a thin sheet mirrors as much from every side as it does of light that meets it \
+                 squarely",
+                "",
+            );
+        }
         if surface.thin && matte(surface) == 0.0 && !surface.emission.is_none() {
             omissions.add(
                 place,
@@ -194,34 +197,13 @@ fn glowing(colour: [f64; 3], emission: [f64; 3]) -> ([f64; 3], String) {
     ([r, g, b], format!(" emission {}", rgb([x, y, z], 1.0)))
 }
 
-/// A clear sheet: what it mirrors at angles from 0 to 90 degrees, nearer to one another where it
-/// changes more. The pattern is the angle, with 180 degrees as 1.
-fn sheet(ior: f64) -> String {
-    let mut map = String::new();
-    for i in 0..=ANGLES {
-        let rest = 1.0 - f64::from(i) / f64::from(ANGLES);
-        let degrees = 90.0 * (1.0 - rest * rest);
-        let mirrored = mirrored_by_sheet(degrees, ior);
-        let _ = write!(
-            map,
-            " [{} pigment {{ rgbt 1 }} finish {{ diffuse 0 reflection {} conserve_energy }}]",
-            Number(degrees / 180.0),
-            Number(mirrored)
-        );
-    }
-    format!("aoi texture_map {{{map} }}")
-}
-
+/// A clear sheet, which mirrors as much from everywhere as it does of light that meets it squarely:
 /// 2 F / (1 + F), with F by Fresnel from air into that medium.
-fn mirrored_by_sheet(degrees: f64, ior: f64) -> f64 {
-    let (sine, cosine) = sin_cos_degrees(degrees);
-    let square = 1.0 - (sine / ior) * (sine / ior);
-    if square <= 0.0 || cosine <= 0.0 {
-        return 1.0;
-    }
-    let bent = square.sqrt();
-    let across = (cosine - ior * bent) / (cosine + ior * bent);
-    let along = (ior * cosine - bent) / (ior * cosine + bent);
-    let f = (across * across + along * along) / 2.0;
-    2.0 * f / (1.0 + f)
+fn sheet(ior: f64) -> String {
+    let root = (ior - 1.0) / (ior + 1.0);
+    let f = root * root;
+    format!(
+        "pigment {{ rgbt 1 }} finish {{ diffuse 0 reflection {} conserve_energy }}",
+        Number(2.0 * f / (1.0 + f))
+    )
 }
