@@ -1,6 +1,3 @@
-use crate::hierarchy::stretch_in;
-use lancer_math::{Bounds, Ray};
-
 /// Where a ray goes through a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Crossing {
@@ -38,28 +35,6 @@ impl Crossings {
         }
         self.list[at] = Crossing { t, part };
         self.count += 1;
-    }
-
-    /// These, none of them outside of the shape's box, where roundings may have put them;
-    /// nor beside it, where the ray passes the box. So a hit is found whichever boxes are
-    /// around its shape, and nearer to where it is, if it is there.
-    #[inline]
-    pub(crate) fn kept_in(mut self, bounds: &Bounds, ray: &Ray) -> Self {
-        if self.count == 0 {
-            return self;
-        }
-        let everywhere = (f64::NEG_INFINITY, f64::INFINITY);
-        let inverse = ray.direction.map(|c| 1.0 / c);
-        match stretch_in(bounds, ray, &inverse, 0.0, everywhere) {
-            Some((from, to)) => {
-                for crossing in &mut self.list[..self.count] {
-                    // Where what is computed is not a number, it stays as it is.
-                    crossing.t = crossing.t.max(from).min(to);
-                }
-                self
-            }
-            None => Self::NONE,
-        }
     }
 
     /// Nearest first.

@@ -58,8 +58,7 @@ impl Primitive for Faces {
                 return Crossings::NONE;
             }
         }
-        // In a sharp corner, faces are met apart by more than it is wide.
-        inside.ends().kept_in(&self.bounds, ray)
+        inside.ends_in(&self.bounds, ray)
     }
 
     /// On the face, and if it lies beyond an edge by the rounding of a large t,

@@ -26,6 +26,7 @@
 //! that of the side which the ray comes towards, so that it is as bright as what is
 //! around it. A ray through the apex alone touches: its two crossings are one.
 
+use super::clip::kept_in;
 use super::exact::difference_of_products;
 use super::frame::{Frame, across};
 use crate::Crossing;
@@ -237,14 +238,16 @@ impl Primitive for Barrel {
             to = End { t: second, part: SIDE };
         }
         if from.t <= to.t && from.t > f64::NEG_INFINITY && to.t < f64::INFINITY {
-            for end in [from, to] {
+            // Where the side is nearly a lid, a rounding along the axis is many across it.
+            let ends = [from, to].map(|end| near.t(end.t));
+            let Some(ends) = kept_in(&self.bounds, ray, ends) else { return crossings };
+            for (t, end) in ends.into_iter().zip([from, to]) {
                 if end.part == SIDE || !self.open {
-                    crossings.add(near.t(end.t), end.part);
+                    crossings.add(t, end.part);
                 }
             }
         }
-        // Where the side is nearly a lid, a rounding along the axis is many across it.
-        crossings.kept_in(&self.bounds, ray)
+        crossings
     }
 
     /// Built up from the smaller lid's centre, a height, and the radius there.
