@@ -263,6 +263,7 @@ impl Picture {
             }
             self.follow_contours();
             self.refine_to(job, control, &spread, |_, pixel| pixel.count().max(2));
+            self.keep_up(job, control, &spread);
             let tally = self.tally();
             let pixels = self.pixels();
             let allowed = |target: f64| target * MARGIN * target * MARGIN * pixels;
@@ -321,6 +322,44 @@ impl Picture {
             }
             let class = class(count, table.error(pixel, exposure));
             plan.samples(class, count, tile.chance(usize::from(pixel.index)))
+        });
+    }
+
+    /// Gives pixels beside what was found between samples as many samples as that has. There a
+    /// pixel that seems empty may be one in which the same thin thing was not met yet: so
+    /// whether it goes on depends on the others, and it is right in the mean.
+    fn keep_up(&mut self, job: &Job<'_>, control: &Control<'_>, spread: &Spread) {
+        let (tiles, across) = (&self.tiles, self.across);
+        let ahead: Vec<Vec<(usize, usize, u32)>> = (0..tiles.len())
+            .into_par_iter()
+            .map(|index| {
+                let around = Neighbours { tiles, across, index };
+                let leaders = tiles[index].refined.iter().filter(|p| p.is_mixed && p.is_thin());
+                let beside = leaders.flat_map(|pixel| {
+                    let count = pixel.count();
+                    let beside = around.beside(usize::from(pixel.index));
+                    beside.map(move |(tile, k)| (tile, k, count))
+                });
+                beside.collect()
+            })
+            .collect();
+        if ahead.iter().all(Vec::is_empty) {
+            return;
+        }
+        let mut least = vec![Vec::new(); self.tiles.len()];
+        for (tile, k, count) in ahead.into_iter().flatten() {
+            let least = &mut least[tile];
+            if least.is_empty() {
+                least.resize(self.tiles[tile].pixels(), 0);
+            }
+            least[k] = count.max(least[k]);
+        }
+        for (tile, least) in self.tiles.iter_mut().zip(least) {
+            tile.least = least;
+        }
+        self.refine_to(job, control, spread, |tile, pixel| {
+            let least = tile.least.get(usize::from(pixel.index)).copied().unwrap_or(0);
+            if pixel.is_thin() { pixel.count().max(least) } else { pixel.count() }
         });
     }
 

@@ -24,6 +24,8 @@ pub(super) struct Tile {
     pub(super) is_mixed: Set,
     /// Those of them whose neighbours are refined for it.
     pub(super) is_followed: Set,
+    /// So many samples its pixels should have at least, if any should.
+    pub(super) least: Vec<u32>,
     /// Those, in the order in which that was found necessary.
     pub(super) refined: Vec<Pixel>,
 }
@@ -70,6 +72,7 @@ impl Tile {
             is_refined: Set::default(),
             is_mixed: Set::default(),
             is_followed: Set::default(),
+            least: Vec::new(),
             refined: Vec::new(),
         }
     }
@@ -150,6 +153,11 @@ impl Pixel {
             shift: first,
             halves: [Half::default(); 2],
         }
+    }
+
+    /// Whether neighbours' first samples did not show that there is an edge.
+    pub(super) const fn is_thin(&self) -> bool {
+        self.set != 0
     }
 
     pub(super) fn count(&self) -> u32 {
