@@ -43,10 +43,7 @@ fn scattered(window: Window, count: usize, rng: &mut fastrand::Rng) -> Vec<Sampl
     let mut samples: Vec<_> = (0..count as u32)
         .map(|index| {
             if index % 4 == 0 {
-                pixel = (
-                    window.x + rng.u32(0..window.width),
-                    window.y + rng.u32(0..window.height),
-                );
+                pixel = (window.x + rng.u32(0..window.width), window.y + rng.u32(0..window.height));
             }
             Sample::new(pixel, Stream::new(3, pixel, 0, index))
         })
@@ -79,9 +76,8 @@ fn check(name: &str, scene: &Scene) {
     for window in frame.strips(TILE_SIDE, TILE_SIDE) {
         let pixels = (window.y..window.y + window.height)
             .flat_map(|y| (window.x..window.x + window.width).map(move |x| (x, y)));
-        let centres: Vec<_> = pixels
-            .map(|pixel| Sample::at_centre(pixel, Stream::new(0, pixel, 0, 0)))
-            .collect();
+        let centres: Vec<_> =
+            pixels.map(|pixel| Sample::at_centre(pixel, Stream::new(0, pixel, 0, 0))).collect();
         let expected_centres = alone(reference, &centres);
         let count = [1, 3, 17, 64, MOST_SAMPLES][rng.usize(0..5)];
         let some = scattered(window, count, &mut rng);

@@ -267,7 +267,11 @@ mod tests {
                 let odd = libm::floor(i) % 2.0 != 0.0;
                 let other = libm::floor(j) % 2.0 != 0.0;
                 let expected = if odd == other { Cell::First } else { Cell::Second };
-                assert_eq!(shape.square(&contact, 0, &checker).cell, expected, "{normal:?} {i} {j}");
+                assert_eq!(
+                    shape.square(&contact, 0, &checker).cell,
+                    expected,
+                    "{normal:?} {i} {j}"
+                );
             }
         }
     }

@@ -247,7 +247,10 @@ impl Primitive for Ring {
         let angle = checker.angle.get();
         let slack =
             [across, self.tube].map(|radius| checker::slack_around(contact.error, radius, angle));
-        checker::square([checker::turn(at.x, at.y) / angle, checker::turn(off, at.z) / angle], slack)
+        checker::square(
+            [checker::turn(at.x, at.y) / angle, checker::turn(off, at.z) / angle],
+            slack,
+        )
     }
 
     fn bounds(&self) -> Option<Bounds> {

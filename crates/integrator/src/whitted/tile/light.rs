@@ -1,8 +1,8 @@
 //! The light of lamps, spots and suns that falls on the points of a batch.
 
 use super::buffers::{Buffers, Hiding};
-use super::shade::Around;
 use super::places::Places;
+use super::shade::Around;
 use super::{Batch, dot};
 use crate::whitted::lights::{From, Source};
 use crate::whitted::media::Media;
@@ -182,8 +182,7 @@ impl<P: Places> Batch<'_, P> {
             let pixel = self.places.pixel(self.buffers.group.pixel[lit.at + k]);
             let (ray, media, mut spot) = (rays.lane(k), Media::default(), Spot::default());
             let (on, to) = ((&ray, t_max), (&mut spot, &mut *self.counts));
-            let through =
-                self.tracer.lights.through::<P::Signing>(prepared, on, &media, to, pixel);
+            let through = self.tracer.lights.through::<P::Signing>(prepared, on, &media, to, pixel);
             if P::Signing::SIGNED && through != [0.0; 3] {
                 some |= 1 << k;
                 let piece = &mut self.buffers.sights.piece[lit.at + k];

@@ -15,11 +15,11 @@ mod units;
 
 pub(super) use units::units;
 
+use super::signature::{MIRRORED, Signing, Way};
 use super::tracer::{DEEPEST, Kind, WhittedTracer};
 use crate::enclose::{cone, extent};
 use crate::rows::Triples;
 use crate::{RayCounts, Rgb, Sample, Seen};
-use super::signature::{MIRRORED, Signing, Way};
 use buffers::{Buffers, Bundle, Signatures};
 use lancer_film::Window;
 use lancer_kernel::Candidates;

@@ -2,8 +2,8 @@
 //! mirror throws back.
 
 use super::buffers::Buffers;
-use super::units::units;
 use super::places::Places;
+use super::units::units;
 use super::{Batch, ball_around, dot};
 use crate::enclose::extent;
 use crate::rows::Triples;

@@ -268,7 +268,11 @@ fn checkers_go_along_and_around() {
             let from = ray([9.0 * x, 9.0 * y, z], [-x, -y, 0.0]);
             let crossing = shape.nearest(&from, 100.0).unwrap();
             let contact = shape.contact(&from, &crossing);
-            assert_eq!(shape.square(&contact, crossing.part, &checker).cell, expected, "{x} {y} {z}");
+            assert_eq!(
+                shape.square(&contact, crossing.part, &checker).cell,
+                expected,
+                "{x} {y} {z}"
+            );
         }
         for (x, y, expected) in [(-0.01, 0.2, Cell::First), (-0.01, 0.8, Cell::Second)] {
             let from = ray([x, y, -9.0], [0.0, 0.0, 1.0]);

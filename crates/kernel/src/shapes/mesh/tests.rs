@@ -1,7 +1,7 @@
 use super::*;
-use crate::primitive::Cell;
 use crate::Culling;
 use crate::lanes::Width;
+use crate::primitive::Cell;
 use crate::shapes::testing::{
     all, assert_sound, check_leaving, check_pairs, check_scaling, direction, ray, ray_to,
 };
