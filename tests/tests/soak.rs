@@ -6,7 +6,7 @@ macro_rules! checks {
     ($($name:ident: $kind:ident,)*) => {
         $(#[test]
         fn $name() {
-            let problems = soak(Kind::$kind, 0, 10_000, |_| ()).problems();
+            let problems = soak(Kind::$kind, 0, 0..10_000, |_| ()).problems();
             assert!(problems.is_empty(), "{}", problems.join("\n\n"));
         })*
 
@@ -48,10 +48,16 @@ fn closed_meshes_do_not_leak() {
 }
 
 #[test]
+fn what_is_found_in_parts_is_what_is_found_at_once() {
+    let part = |rays| soak(Kind::Cone, 6, rays, |_| ());
+    assert_eq!(part(0..1000).and(part(1000..2500)).rows(true), part(0..2500).rows(true));
+}
+
+#[test]
 fn what_is_found_does_not_depend_on_threads() {
     let found = [1, 3].map(|threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-        pool.install(|| soak(Kind::Mixed, 5, 2000, |_| ()).rows(true))
+        pool.install(|| soak(Kind::Mixed, 5, 0..2000, |_| ()).rows(true))
     });
     assert_eq!(found[0], found[1]);
 }
