@@ -1,6 +1,6 @@
 //! A short soak of each kind of shape; `cargo xtask stability` asks for longer ones.
 
-use lancer_tests::soak::{Kind, closed, leaks, soak};
+use lancer_tests::soak::{Kind, closed, leaks, replay, soak};
 
 macro_rules! checks {
     ($($name:ident: $kind:ident,)*) => {
@@ -44,6 +44,23 @@ fn closed_meshes_do_not_leak() {
     for mesh in [closed::ball(9), closed::block(5), closed::ring(40)] {
         let seen = leaks(&mesh, 0, 65_536);
         assert_eq!((seen.leaks, seen.disagreements), (0, 0), "{}", seen.told.join("\n"));
+    }
+}
+
+/// Found by long soaks: cones from a dozen sizes away, rims of flat ones, a sharp corner beside
+/// its box, a plane in groups within groups.
+#[test]
+fn rays_that_were_answered_wrongly_once() {
+    for id in [
+        "mixed:2:222:170",
+        "open-frustum:2:102:621",
+        "open-frustum:2:362:46",
+        "open-frustum:3:18:335",
+        "tetrahedron:3:458:478",
+        "mixed:3:495:332",
+    ] {
+        let story = replay(id.parse().expect("an id"));
+        assert!(story.ends_with("nothing is wrong with it"), "{id}: {story}");
     }
 }
 
