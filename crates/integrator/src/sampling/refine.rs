@@ -2,7 +2,7 @@
 
 use super::Strategy;
 use super::table::Table;
-use super::tile::{Pixel, Tile};
+use super::tile::{Standing, Tile};
 use crate::numbers::Stream;
 use crate::{MOST_SAMPLES, RayCounts, Sample, Sampler, Seen};
 
@@ -50,16 +50,11 @@ fn grid(cells: u32) -> [u32; 2] {
 }
 
 /// What a thread has found out in a round.
+#[derive(Default)]
 pub(super) struct Found {
     pub(super) counts: RayCounts,
     pub(super) samples: u64,
     pub(super) table: Table,
-}
-
-impl Found {
-    pub(super) fn new() -> Self {
-        Self { counts: RayCounts::default(), samples: 0, table: Table::new() }
-    }
 }
 
 /// Samples that wait to be seen together, and whose they are.
@@ -85,28 +80,27 @@ impl Batch {
     }
 }
 
-/// Gives each refined pixel of some tiles the number of samples that `wanted` says, in its two
-/// halves.
+/// Gives each refined pixel of some tiles the number of samples that `wanted` says for its place
+/// among them, in its two halves.
 pub(super) fn refine(
     tiles: &mut [Tile],
     (sampler, spread): (&dyn Sampler, &Spread),
     exposure: f64,
-    wanted: impl Fn(&Tile, &Pixel) -> u32,
+    wanted: impl Fn(&Tile, usize) -> u32,
     found: &mut Found,
 ) {
     let mut batch = Batch { samples: Vec::new(), owners: Vec::new() };
     let mut changed = Vec::new();
     for at in 0..tiles.len() {
         for which in 0..tiles[at].refined.len() {
-            let tile = &tiles[at];
-            let pixel = tile.refined[which];
-            let wanted = wanted(tile, &pixel);
-            if wanted <= pixel.count() {
+            let tile = &mut tiles[at];
+            let wanted = wanted(tile, which);
+            if wanted <= tile.standing[which].count {
                 continue;
             }
             changed.push((at, which));
-            let place = tile.pixel(usize::from(pixel.index));
-            let pixel = &mut tiles[at].refined[which];
+            let place = tile.pixel(usize::from(tile.refined[which].index));
+            let pixel = &mut tile.refined[which];
             if !spread.goes_on() {
                 pixel.halves = Default::default();
             }
@@ -127,7 +121,8 @@ pub(super) fn refine(
     for (tile, which) in changed {
         let tile = &mut tiles[tile];
         let pixel = &tile.refined[which];
-        found.table.take(pixel, exposure);
+        let (places, count) = (found.table.take(pixel, exposure), pixel.count());
+        tile.standing[which] = Standing { places, count };
         if pixel.is_mixed {
             tile.is_mixed.put(usize::from(pixel.index));
         }
