@@ -78,13 +78,13 @@ pub(super) struct Seen<'a> {
 impl Lights {
     pub(super) fn new(scene: &Scene) -> Self {
         let source = |light: &Light| match light {
-            Light::Lamp { point, brightness, falloff } => Source {
+            Light::Lamp { point, brightness, falloff, .. } => Source {
                 brightness: brightness.get(),
                 place: From::Point(point.get()),
                 falloff: *falloff,
                 beam: None,
             },
-            Light::Spot { point, axis, beam, brightness, falloff } => Source {
+            Light::Spot { point, axis, beam, brightness, falloff, .. } => Source {
                 brightness: brightness.get(),
                 place: From::Point(point.get()),
                 falloff: *falloff,
