@@ -53,4 +53,7 @@ pub trait Sampler: Sync {
     /// What the samples see, at most [`MOST_SAMPLES`] of them; `seen` has a place for each.
     /// Samples of the same or neighbouring pixels together are seen fastest.
     fn see(&self, samples: &[Sample], seen: &mut [Seen], counts: &mut RayCounts);
+
+    /// What one sample sees, followed alone; the same, to the bit.
+    fn see_alone(&self, sample: &Sample, counts: &mut RayCounts) -> Seen;
 }

@@ -2,11 +2,11 @@
 //! Model for Shaded Display*, 1980): light of lamps and suns with shadows,
 //! mirrors, and glass with media that are tracked.
 
-#[cfg_attr(not(test), expect(dead_code, reason = "the engine asks it from the next commit on"))]
 mod ball;
 mod fresnel;
 mod lights;
 mod media;
+mod signature;
 mod stops;
 mod tile;
 mod tracer;

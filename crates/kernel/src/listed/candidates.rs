@@ -66,6 +66,8 @@ pub enum Goal {
     Point(Point),
     /// Each in that direction, without end.
     Direction(Vector),
+    /// Each to a point of the ball around that point with that radius.
+    Ball(Point, f64),
 }
 
 /// Generous for all roundings of products of a few terms, relative to the largest.
@@ -152,7 +154,9 @@ impl Listed {
     /// The hull of the ball and the goal is within the ball's radius of the line
     /// from its centre. A plane with ball and goal on the same side is not between them; nor
     /// is the one that rays leave, if the goal is on that side by more than
-    /// roundings: then they go away from it.
+    /// roundings: then they go away from it. Where the goal is a ball, the hull of both is
+    /// the union of balls around the points between the centres, whose radius changes
+    /// evenly.
     pub(crate) fn between(
         &self,
         centre: &Point,
@@ -164,14 +168,22 @@ impl Listed {
         let size = bound(&centre.coords) + radius;
         for (k, (_, ball)) in self.balls.iter().enumerate() {
             let from_centre = ball.centre - centre;
+            if let Goal::Ball(point, goal_radius) = goal {
+                let reach = (ball.radius, radius, *goal_radius);
+                let slack = 1e-9 * (size + bound(&ball.centre.coords) + bound(&point.coords));
+                let is_off =
+                    gap(&from_centre, &(point - centre), reach) > slack + 1e-9 * goal_radius;
+                among.balls &= !(u64::from(is_off) << k);
+                continue;
+            }
             let way = match goal {
-                Goal::Point(point) => point - centre,
+                Goal::Point(point) | Goal::Ball(point, _) => point - centre,
                 Goal::Direction(direction) => *direction,
             };
             let length_squared = way.norm_squared();
             let along = from_centre.dot(&way) / length_squared;
             let along = match goal {
-                Goal::Point(_) => along.clamp(0.0, 1.0),
+                Goal::Point(_) | Goal::Ball(..) => along.clamp(0.0, 1.0),
                 Goal::Direction(_) => along.max(0.0),
             };
             let off = (from_centre - way * along).norm_squared();
@@ -189,6 +201,10 @@ impl Listed {
                     (normal.dot(&(point - plane.origin)), SLACK * (size + bound(&point.coords)))
                 }
                 Goal::Direction(direction) => (normal.dot(direction), SLACK),
+                Goal::Ball(point, goal_radius) => {
+                    let slack = SLACK * (size + bound(&point.coords) + goal_radius);
+                    (normal.dot(&(point - plane.origin)), goal_radius + slack)
+                }
             };
             let near = SLACK * size + radius;
             let above = (height > near) & (of_goal > slack);
@@ -200,6 +216,28 @@ impl Listed {
         }
         among
     }
+}
+
+/// How far a ball at `at` is from the hull of one at the origin and one at `way`, at
+/// least; the radii are in that order.
+///
+/// Along the way the distance from the ball's centre less the hull's radius there is convex. Its
+/// least value is where the angle to the centre has the tangent that the hull's side has, or at
+/// an end.
+fn gap(at: &Vector, way: &Vector, (radius, here, there): (f64, f64, f64)) -> f64 {
+    let length = way.norm();
+    let along = at.dot(way) / length;
+    let across = (at - way * (along / length)).norm();
+    let slope = (there - here) / length;
+    let least = along + across * slope / ((1.0 - slope) * (1.0 + slope)).sqrt();
+    let ends = [0.0, length];
+    // Where one ball is in the other, least is not a number.
+    let places = if least > 0.0 && least < length { [least; 2] } else { ends };
+    let gaps = places.map(|place| {
+        let off = (across * across + (along - place) * (along - place)).sqrt();
+        off - (here + slope * place)
+    });
+    gaps[0].min(gaps[1]) - radius
 }
 
 /// At least the length, and less than twice that.

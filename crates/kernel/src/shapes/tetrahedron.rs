@@ -8,7 +8,7 @@ use super::flat::Patch;
 use crate::Crossing;
 use crate::crossing::Crossings;
 use crate::near::stepped;
-use crate::primitive::{Cell, Contact, Primitive};
+use crate::primitive::{Contact, Primitive, Square};
 use lancer_math::{Bounds, Point, Ray};
 use lancer_scene::{Checker, Tetrahedron};
 
@@ -71,8 +71,8 @@ impl Primitive for Faces {
         face.contact([u / sum, v / sum], self.size)
     }
 
-    fn cell(&self, contact: &Contact, part: u32, checker: &Checker) -> Cell {
-        self.faces[part as usize % 4].cell(contact, checker)
+    fn square(&self, contact: &Contact, part: u32, checker: &Checker) -> Square {
+        self.faces[part as usize % 4].square(contact, checker)
     }
 
     fn bounds(&self) -> Option<Bounds> {

@@ -21,8 +21,9 @@ use std::f64::consts::PI;
 pub(super) struct Ball {
     /// From the point to the ball's centre.
     way: Vector,
-    /// The normal of length 1 on the side that is seen.
+    /// The normals of length 1 on the side that is seen, to shade with and of the facet.
     normal: Vector,
+    facet: Vector,
     radius: f64,
     /// The length of `way`, and its square.
     distance: f64,
@@ -32,12 +33,13 @@ pub(super) struct Ball {
 }
 
 impl Ball {
-    pub(super) fn new(way: Vector, radius: f64, normal: Vector) -> Self {
-        let squared = way.norm_squared();
-        Self { way, normal, radius, distance: squared.sqrt(), squared, along: way.dot(&normal) }
+    pub(super) fn new(way: Vector, radius: f64, [normal, facet]: [Vector; 2]) -> Self {
+        let (squared, along) = (way.norm_squared(), way.dot(&normal));
+        Self { way, normal, facet, radius, distance: squared.sqrt(), squared, along }
     }
 
-    /// The radiance of a white matte surface that nothing hides the lamp from.
+    /// The radiance of a white matte surface that nothing hides the lamp from; but for the
+    /// facet itself, where that is turned otherwise.
     ///
     /// Where light does not fall off, it is so many times more as the square of the
     /// distance is; within the ball, as the square of its radius is.
@@ -66,10 +68,9 @@ impl Ball {
         }
     }
 
-    /// Whether all of it is below the horizon of a normal.
-    pub(super) fn is_below(&self, normal: &Vector) -> bool {
-        // Also for NaN.
-        !(self.is_inside() || self.way.dot(normal) > -self.radius)
+    /// Whether the facet hides nothing of what is above the horizon.
+    pub(super) fn is_before_facet(&self) -> bool {
+        self.facet == self.normal || !self.is_inside() && self.way.dot(&self.facet) >= self.radius
     }
 
     fn is_inside(&self) -> bool {

@@ -7,13 +7,19 @@ use lancer_math::Vector;
 
 impl Ball {
     /// From the surface's point to a point of the lamp that is seen from there, for two
-    /// numbers from 0 to 1 that are evenly distributed.
+    /// numbers from 0 to 1 that are evenly distributed; none where it is behind the facet.
     ///
     /// Directions are distributed as their projected solid angle is, among those that are
     /// above the horizon of the normal. So the light that arrives is the mean of what it
     /// would be with nothing hidden, times 1 or 0 as the point is seen or hidden: without
     /// noise where all or nothing is seen.
-    pub(in crate::whitted) fn point(&self, numbers: [f64; 2]) -> Vector {
+    pub(in crate::whitted) fn point(&self, numbers: [f64; 2]) -> Option<Vector> {
+        let way = self.any_point(numbers);
+        (self.is_before_facet() || way.dot(&self.facet) > 0.0).then_some(way)
+    }
+
+    /// The same whatever the facet hides.
+    pub(super) fn any_point(&self, numbers: [f64; 2]) -> Vector {
         if self.is_inside() {
             self.around(numbers)
         } else if self.along >= self.radius {

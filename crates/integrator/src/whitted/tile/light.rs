@@ -1,34 +1,42 @@
 //! The light of lamps, spots and suns that falls on the points of a batch.
 
 use super::buffers::{Buffers, Hiding};
+use super::places::Places;
 use super::shade::Around;
-use super::{Tile, dot};
-use crate::whitted::lights::{From, Source};
+use super::{Batch, dot};
+use crate::whitted::lights::{From, Source, dimension};
 use crate::whitted::media::Media;
+use crate::whitted::signature::{Signing, Spot, Way};
 use lancer_kernel::lanes::{Lanes, MOST, Mask, Real, Vectors, lanes_of};
 use lancer_kernel::{Candidates, Goal, Rays, Which};
 use lancer_math::Vector;
 use lancer_scene::Falloff;
 
 /// The points of a register.
-struct Lit<L: Lanes> {
+pub(super) struct Lit<L: Lanes> {
     /// The place of the first one in the group.
-    at: usize,
+    pub(super) at: usize,
     /// Those that light matters to.
-    matter: L::Mask,
-    point: Vectors<L::Real>,
-    facet: Vectors<L::Real>,
-    shading: Vectors<L::Real>,
+    pub(super) matter: L::Mask,
+    pub(super) point: Vectors<L::Real>,
+    pub(super) facet: Vectors<L::Real>,
+    pub(super) shading: Vectors<L::Real>,
     /// Where rays to what is above the facet start.
-    origin: Vectors<L::Real>,
+    pub(super) origin: Vectors<L::Real>,
 }
 
-impl Tile<'_> {
+impl<P: Places> Batch<'_, P> {
     /// Adds what light makes of the matte part of what the group sees, whose share is `matte`:
     /// the radiance of a white surface is what each lane computes as
     /// [`Lights::gather`](crate::whitted::lights::Lights::gather) does.
     #[inline(always)]
-    pub(super) fn gather<L: Lanes>(&mut self, lanes: L, matte: f64, item: u32, around: &Around) {
+    pub(super) fn gather<L: Lanes>(
+        &mut self,
+        lanes: L,
+        matte: f64,
+        (item, way): (u32, Way),
+        around: &Around,
+    ) {
         let tracer = self.tracer;
         let sources = &tracer.lights.lights;
         // Opaque surfaces leave light its colour.
@@ -55,7 +63,7 @@ impl Tile<'_> {
             let lit = Lit { at, matter, point, facet, shading, origin };
             let mut light = Vectors::splat(lanes, &Vector::zeros());
             for (index, source) in sources.iter().enumerate() {
-                self.shine(lanes, (source, index), &lit, is_grey, &mut light);
+                self.shine(lanes, (source, index, way), &lit, is_grey, &mut light);
             }
             if is_grey {
                 (light.y, light.z) = (light.x, light.x);
@@ -83,7 +91,7 @@ impl Tile<'_> {
     #[inline(always)]
     fn is_in_order(&self) -> bool {
         let group = &self.buffers.group;
-        group.count == self.window.pixels() as usize
+        group.count == self.places.count()
             && group.pixel[..group.count].iter().zip(0..).fold(true, |all, (p, k)| all & (*p == k))
     }
 
@@ -98,6 +106,7 @@ impl Tile<'_> {
             let goal = match &source.place {
                 From::Point(point) => Goal::Point(*point),
                 From::Direction(direction) => Goal::Direction(*direction),
+                From::Ball(centre, radius) => Goal::Ball(*centre, *radius),
             };
             let among = if culling.shadow_candidates {
                 prepared.candidates_between(centre, *radius, &goal, leaving)
@@ -115,19 +124,24 @@ impl Tile<'_> {
     fn shine<L: Lanes>(
         &mut self,
         lanes: L,
-        (source, index): (&Source, usize),
+        (source, index, met_on): (&Source, usize, Way),
         lit: &Lit<L>,
         is_grey: bool,
         light: &mut Vectors<L::Real>,
     ) {
         let zero = lanes.splat(0.0);
-        let (way, squared, t_max) = match &source.place {
+        let (way, squared, lamp) = match &source.place {
             From::Direction(direction) => {
-                (Vectors::splat(lanes, direction), lanes.splat(1.0), f64::INFINITY)
+                (Vectors::splat(lanes, direction), lanes.splat(1.0), None)
             }
             From::Point(lamp) => {
                 let way = Vectors::splat_point(lanes, lamp) - lit.point;
-                (way, dot(&way, &way), 1.0)
+                (way, dot(&way, &way), Some(lamp))
+            }
+            From::Ball(centre, radius) => {
+                let numbers = dimension(met_on, index);
+                let ball = (source, index, (centre, *radius));
+                return self.shine_from_ball(lanes, ball, numbers, lit, is_grey, light);
             }
         };
         let along = dot(&way, &lit.shading);
@@ -142,38 +156,64 @@ impl Tile<'_> {
             Falloff::Square => bright / (squared * distance),
             Falloff::None => bright / distance,
         };
+        let mut mark = lanes.splat(source.marks[0]);
         if let Some(beam) = &source.beam {
             let mut shares = [0.0; MOST];
             for k in lanes_of(asked.bits()) {
                 shares[k] = beam.share(&(way.lane(k) / -distance.lane(k)));
             }
-            strength = strength * lanes.load(&shares);
+            let shares = lanes.load(&shares);
+            strength = strength * shares;
+            let all = shares.eq(lanes.splat(1.0));
+            mark = all.select(mark, lanes.splat(source.marks[1]));
         }
         let asked = asked & !strength.eq(zero);
         self.counts.shadow += u64::from(asked.bits().count_ones());
-        let Hiding { among, outside, is_clear } = &self.buffers.hiding[index];
-        if is_grey && *is_clear {
+        if is_grey && self.buffers.hiding[index].is_clear {
             light.x = asked.select(light.x + strength, light.x);
+            self.arrive(lanes, lit.at, mark, asked);
             return;
         }
-        let direction = match &source.place {
-            From::Direction(_) => way,
-            From::Point(lamp) => Vectors::splat_point(lanes, lamp) - lit.origin,
+        let (direction, t_max) = match lamp {
+            None => (way, f64::INFINITY),
+            Some(lamp) => (Vectors::splat_point(lanes, lamp) - lit.origin, 1.0),
         };
         let rays = Rays::new(lanes, lit.origin, direction);
+        self.cast(lanes, (&rays, t_max, asked), (strength, mark), (lit.at, index), is_grey, light);
+    }
+
+    /// Adds what arrives of light of a strength that comes along rays, against them, from `t_max`.
+    #[inline(always)]
+    pub(super) fn cast<L: Lanes>(
+        &mut self,
+        lanes: L,
+        (rays, t_max, asked): (&Rays<L>, f64, L::Mask),
+        (strength, mark): (L::Real, L::Real),
+        (at, index): (usize, usize),
+        is_grey: bool,
+        light: &mut Vectors<L::Real>,
+    ) {
+        let Hiding { among, outside, .. } = &self.buffers.hiding[index];
         let prepared = &self.tracer.prepared;
-        let hidden = prepared.any_in_lanes(&rays, t_max, asked, Which::Opaque, (among, *outside));
+        let hidden = prepared.any_in_lanes(rays, t_max, asked, Which::Opaque, (among, *outside));
         let arrives = asked & !hidden;
         if is_grey {
             light.x = arrives.select(light.x + strength, light.x);
+            self.arrive(lanes, at, mark, arrives);
             return;
         }
         let mut more = [[0.0; MOST]; 3];
+        let mut some = 0;
         for k in lanes_of(arrives.bits()) {
-            let place = super::Places::place(&self.window, self.buffers.group.pixel[lit.at + k]);
-            let (ray, media) = (rays.lane(k), Media::default());
-            let through =
-                self.tracer.lights.through(prepared, &ray, t_max, &media, self.counts, place);
+            let pixel = self.places.pixel(self.buffers.group.pixel[at + k]);
+            let (ray, media, mut spot) = (rays.lane(k), Media::default(), Spot::default());
+            let (on, to) = ((&ray, t_max), (&mut spot, &mut *self.counts));
+            let through = self.tracer.lights.through::<P::Signing>(prepared, on, &media, to, pixel);
+            if P::Signing::SIGNED && through != [0.0; 3] {
+                some |= 1 << k;
+                let piece = &mut self.buffers.sights.piece[at + k];
+                *piece = piece.wrapping_add(spot.piece);
+            }
             for (more, through) in more.iter_mut().zip(through) {
                 // Nothing of something infinite is nothing.
                 if through != 0.0 {
@@ -182,5 +222,22 @@ impl Tile<'_> {
             }
         }
         *light = *light + Vectors::load(lanes, more.each_ref().map(|more| &more[..]));
+        self.arrive(lanes, at, mark, lanes.mask(some));
+    }
+
+    /// Notes where light arrives, by its mark.
+    #[inline(always)]
+    pub(super) fn arrive<L: Lanes>(
+        &mut self,
+        lanes: L,
+        at: usize,
+        mark: L::Real,
+        arrives: L::Mask,
+    ) {
+        if P::Signing::SIGNED {
+            let lit = &mut self.buffers.sights.lit[at..];
+            let before = lanes.load(lit);
+            arrives.select(before + mark, before).store(lit);
+        }
     }
 }

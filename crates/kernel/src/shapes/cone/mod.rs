@@ -32,7 +32,7 @@ use crate::Crossing;
 use crate::checker;
 use crate::crossing::Crossings;
 use crate::near::{Near, stepped};
-use crate::primitive::{Cell, Contact, Primitive};
+use crate::primitive::{Contact, Primitive, Square};
 use lancer_math::{Bounds, Point, Ray, Vector, unit};
 use lancer_scene::{Checker, Cone};
 
@@ -268,7 +268,7 @@ impl Primitive for Barrel {
 
     /// The side by its height above the base and the angle, lids by the distance
     /// from their middle and the angle.
-    fn cell(&self, contact: &Contact, part: u32, checker: &Checker) -> Cell {
+    fn square(&self, contact: &Contact, part: u32, checker: &Checker) -> Square {
         let at = self.frame.local(&(contact.point - self.base));
         let across = (at.x * at.x + at.y * at.y).sqrt();
         let along = if part == SIDE { at.z } else { across };
@@ -276,7 +276,7 @@ impl Primitive for Barrel {
         let (length, angle) = (checker.length.get(), checker.angle.get());
         let slack = checker::slack(contact.error, length);
         let slack_around = checker::slack_around(contact.error, across, angle);
-        checker::cell([along / length, turn / angle], [slack, slack_around])
+        checker::square([along / length, turn / angle], [slack, slack_around])
     }
 
     /// Around the circles of both lids.

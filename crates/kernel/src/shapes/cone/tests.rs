@@ -3,6 +3,7 @@ use super::super::testing::{
     ray, ray_to, ts, worst_error,
 };
 use super::*;
+use crate::primitive::Cell;
 use fastrand::Rng;
 use lancer_scene::{Colour, Position};
 
@@ -267,14 +268,18 @@ fn checkers_go_along_and_around() {
             let from = ray([9.0 * x, 9.0 * y, z], [-x, -y, 0.0]);
             let crossing = shape.nearest(&from, 100.0).unwrap();
             let contact = shape.contact(&from, &crossing);
-            assert_eq!(shape.cell(&contact, crossing.part, &checker), expected, "{x} {y} {z}");
+            assert_eq!(
+                shape.square(&contact, crossing.part, &checker).cell,
+                expected,
+                "{x} {y} {z}"
+            );
         }
         for (x, y, expected) in [(-0.01, 0.2, Cell::First), (-0.01, 0.8, Cell::Second)] {
             let from = ray([x, y, -9.0], [0.0, 0.0, 1.0]);
             let crossing = shape.nearest(&from, 100.0).unwrap();
             let contact = shape.contact(&from, &crossing);
             assert_eq!((contact.normal, crossing.part), (-Vector::z(), BASE));
-            assert_eq!(shape.cell(&contact, BASE, &checker), expected, "{x} {y}");
+            assert_eq!(shape.square(&contact, BASE, &checker).cell, expected, "{x} {y}");
         }
     }
 }
