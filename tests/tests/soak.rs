@@ -6,7 +6,7 @@ macro_rules! checks {
     ($($name:ident: $kind:ident,)*) => {
         $(#[test]
         fn $name() {
-            let problems = soak(Kind::$kind, 0, 10_000).problems();
+            let problems = soak(Kind::$kind, 0, 10_000, |_| ()).problems();
             assert!(problems.is_empty(), "{}", problems.join("\n\n"));
         })*
 
@@ -51,7 +51,7 @@ fn closed_meshes_do_not_leak() {
 fn what_is_found_does_not_depend_on_threads() {
     let found = [1, 3].map(|threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-        pool.install(|| soak(Kind::Mixed, 5, 2000).rows(true))
+        pool.install(|| soak(Kind::Mixed, 5, 2000, |_| ()).rows(true))
     });
     assert_eq!(found[0], found[1]);
 }

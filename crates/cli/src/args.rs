@@ -51,6 +51,9 @@ pub enum Command {
     /// Compare two pictures pixel by pixel
     #[command(after_help = EXIT_CODES)]
     Compare(CompareArgs),
+    /// Write a scene in the language of another renderer
+    #[command(after_help = EXIT_CODES)]
+    Export(ExportArgs),
 }
 
 /// What to render, how, and where to.
@@ -161,6 +164,34 @@ pub struct CompareArgs {
     pub json: bool,
 }
 
+/// What to write in another language.
+#[derive(Debug, Args)]
+pub struct ExportArgs {
+    /// The scene file; `-` is standard input
+    pub scene: PathBuf,
+
+    /// The file to write; `-` is standard output
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+
+    #[arg(long, value_name = "FORMAT", value_parser = export_parser(), help = export_help())]
+    #[allow(missing_docs, reason = "the doc comment would replace the computed help")]
+    pub format: Option<lancer_export::Format>,
+
+    /// How bright its pictures are: a number of stops, or auto for radiance as it is. Else the
+    /// camera's own exposure
+    #[arg(long, value_name = "STOPS", value_parser = parse_exposure, allow_hyphen_values = true)]
+    pub exposure: Option<Exposure>,
+
+    /// Say nothing but errors: not what the format cannot say, which its file lists too
+    #[arg(short, long)]
+    pub quiet: bool,
+
+    /// Refuse pictures of more pixels
+    #[arg(long, value_name = "N", default_value_t = lancer_xml::MAX_PIXELS)]
+    pub max_pixels: u64,
+}
+
 /// Layers in the order in which they were asked for.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LayerKinds(pub Vec<LayerKind>);
@@ -203,6 +234,20 @@ fn format_parser() -> impl TypedValueParser<Value = Format> {
     let value = |names: &[&'static str]| PossibleValue::new(names[0]).aliases(names[1..].to_vec());
     PossibleValuesParser::new(Format::ALL.iter().map(|(_, names)| value(names)))
         .try_map(|name| Format::from_name(&name).ok_or("no such format"))
+}
+
+fn export_parser() -> impl TypedValueParser<Value = lancer_export::Format> {
+    PossibleValuesParser::new(lancer_export::Format::ALL.iter().map(|format| format.name()))
+        .try_map(|name| lancer_export::Format::from_name(&name).ok_or("no such format"))
+}
+
+fn export_help() -> String {
+    let formats = lancer_export::Format::ALL.iter();
+    let formats: Vec<_> = formats.map(|f| format!("{}, for {}", f.name(), f.program())).collect();
+    format!(
+        "The format: {}; else the file name's extension says it (.pov, or .xml)",
+        formats.join("; ")
+    )
 }
 
 fn bits_parser() -> impl TypedValueParser<Value = Bits> {

@@ -15,8 +15,10 @@
 pub mod args;
 mod check;
 mod compare;
+mod export;
 mod files;
 mod interrupt;
+pub mod peers;
 mod preview;
 mod render;
 pub mod report;
@@ -63,6 +65,7 @@ pub fn main() -> ExitCode {
         Command::Render(args) => render::run(args),
         Command::Check(args) => check::run(args),
         Command::Compare(args) => compare::run(args),
+        Command::Export(args) => export::run(args),
     };
     let (message, code) = match result {
         Ok(()) => return ExitCode::SUCCESS,

@@ -33,6 +33,7 @@ mod numbers;
 mod render;
 mod rows;
 mod samples;
+mod sampling;
 mod whitted;
 
 pub use classic::camera::PinholeCamera;
@@ -45,4 +46,5 @@ pub use lancer_kernel::{Culling, KernelSettings, lanes::Width};
 pub use numbers::Stream;
 pub use render::{Progress, RenderError, RenderSettings, Rendered, TILE_SIDE, render};
 pub use samples::{MOST_SAMPLES, Sample, Sampler, Seen};
+pub use sampling::{Accuracy, Forecast, Sampling, StopAt, Strategy, Why};
 pub use whitted::Whitted;

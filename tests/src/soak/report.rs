@@ -79,7 +79,6 @@ impl Report {
             "self-hits",
             "other",
             "disagreements",
-            "by boxes",
             "judged by the oracle",
             "overruled",
             "distance (ulp)",
@@ -124,7 +123,6 @@ fn row(name: &str, c: &Count) -> String {
         c.self_hits,
         c.other,
         c.disagreements,
-        c.boxed,
         c.judged,
         c.overruled,
     ];

@@ -21,7 +21,10 @@ pub(super) fn run(args: &StabilityArgs, rays: u64) -> Result<(String, bool), Fai
     print!("seed {}\n{}", args.seed, Report::head());
     for (i, kind) in (0..).zip(kinds) {
         let share = rays / count + u64::from(i < rays % count);
-        let report = soak(kind, args.seed, share);
+        let report = soak(kind, args.seed, share, |failure| {
+            let id = failure.id.map_or_else(String::new, |id| id.to_string());
+            eprintln!("{id}: {}", failure.what.lines().next().unwrap_or_default());
+        });
         print!("{}", report.rows(args.classes));
         for problem in report.problems() {
             is_good = false;
