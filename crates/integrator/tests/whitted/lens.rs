@@ -96,7 +96,7 @@ fn what_is_near_is_half_seen() {
     let camera = Camera::new([0.0; 3], [0.0, 3.0, 0.0], 1e-9, [1, 1]);
     let camera = camera.and_then(|camera| camera.aperture(0.5));
     let half =
-        Shape::rectangle([0.0, 1.0, -9.0], [9.0, 0.0, 0.0], [0.0, 0.0, 18.0], shining([1.0; 3]));
+        Shape::rectangle([0.0, 1.0, -9.0], [[9.0, 0.0, 0.0], [0.0, 0.0, 18.0]], shining([1.0; 3]));
     let scene = scene(camera, 0.0).shape(half).build().expect("valid");
     let samples = see(&scene, 4096, false, 3);
     let mean = samples.iter().map(|(_, seen)| f64::from(seen.radiance[0])).sum::<f64>() / 4096.0;

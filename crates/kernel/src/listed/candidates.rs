@@ -248,8 +248,8 @@ fn bound(v: &Vector) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use crate::lanes::{Lanes, One};
-    use crate::{Candidates, Prepared, Rays};
+    use crate::lanes::{Lanes, Mask, One};
+    use crate::{Candidates, Goal, Prepared, Rays, Which};
     use fastrand::Rng;
     use lancer_math::{Point, Ray, Vector, unit};
     use lancer_scene::{Camera, Colour, Scene, Shape, Surface};
@@ -342,5 +342,50 @@ mod tests {
             }
         }
         assert!(left_out > 1000, "{left_out}");
+    }
+
+    /// Rays from a ball of points to a ball, among planes and balls, some of which touch
+    /// what is between the two.
+    #[test]
+    fn what_is_left_out_hides_nothing_of_a_ball() {
+        let mut rng = Rng::with_seed(32);
+        let (mut left_out, mut hidden) = (0, 0);
+        for case in 0..4000 {
+            let mut vector = || {
+                let mut number = || 2.0 * rng.f64() - 1.0;
+                Vector::new(number(), number(), number())
+            };
+            let mut scene =
+                Scene::builder().camera(Camera::new([0.0; 3], [1.0, 0.0, 0.0], 1.0, [1, 1]));
+            let surface = || Surface::new(Colour::RED);
+            let centre = Point::from(vector());
+            let goal = centre + vector() * [0.3, 3.0, 100.0][case % 3];
+            let radius = [0.0, 1e-6, 0.1, 1.0][case / 3 % 4];
+            let goal_radius = [1e-6, 0.05, 0.5, 2.0][case / 12 % 4];
+            for _ in 0..4 {
+                let normal = vector() + Vector::new(0.0, 0.0, 1e-9);
+                let at = goal.coords + vector() * 2.0 * goal_radius;
+                scene = scene.shape(Shape::plane(at.into(), normal.into(), surface()));
+                let way = goal - centre;
+                let at = centre + way * vector().x.abs() + way.cross(&vector());
+                scene = scene.shape(Shape::sphere(at.into(), 0.3 * way.norm(), surface()));
+            }
+            let prepared = Prepared::new(&scene.build().expect("valid"));
+            let to = Goal::Ball(goal, goal_radius);
+            let among = prepared.candidates_between(&centre, radius, &to, None);
+            left_out += usize::from(among != prepared.listed().all());
+            for _ in 0..30 {
+                let mut on = || unit(vector()).expect("not zero");
+                let (from, end) = (centre + on() * radius, goal + on() * goal_radius);
+                let rays = Rays::splat(One, &Ray::new(from, end - from));
+                let is_hidden = |among: &Candidates| {
+                    let (asked, which) = (One.mask(1), Which::Opaque);
+                    prepared.any_in_lanes(&rays, 1.0, asked, which, (among, None)).any()
+                };
+                assert_eq!(is_hidden(&among), is_hidden(&Candidates::ALL), "case {case}");
+                hidden += usize::from(is_hidden(&among));
+            }
+        }
+        assert!(left_out > 2000 && hidden > 10_000, "{left_out} {hidden}");
     }
 }
