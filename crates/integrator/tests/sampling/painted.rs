@@ -44,11 +44,15 @@ impl<F: Fn(f64, f64) -> (f64, u64) + Sync> Tracer for Painter<'_, F> {
 impl<F: Fn(f64, f64) -> (f64, u64) + Sync> Sampler for Painter<'_, F> {
     fn see(&self, samples: &[Sample], seen: &mut [Seen], counts: &mut RayCounts) {
         for (sample, seen) in samples.iter().zip(seen) {
-            counts.primary += 1;
-            let [x, y] = sample.place;
-            let (value, signature) = (self.0)(x, y);
-            *seen = Seen { radiance: [value as f32; 3], signature };
+            *seen = self.see_alone(sample, counts);
         }
+    }
+
+    fn see_alone(&self, sample: &Sample, counts: &mut RayCounts) -> Seen {
+        counts.primary += 1;
+        let [x, y] = sample.place;
+        let (value, signature) = (self.0)(x, y);
+        Seen { radiance: [value as f32; 3], signature }
     }
 }
 
