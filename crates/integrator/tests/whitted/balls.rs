@@ -120,18 +120,19 @@ fn a_lamp_half_below_the_horizon_and_one_around_the_point() {
 #[test]
 fn a3_shadows_on_the_axis() {
     // What is left of the lamp's disc, by the squares of sines.
-    for (radius, size) in [(0.05, 0.05), (0.1, 0.05), (0.3, 0.2), (0.7, 0.4), (0.7, 0.65)] {
+    for (radius, size) in [(0.05, 0.05), (0.1, 0.04), (0.3, 0.1), (0.7, 0.4), (0.7, 0.65)] {
         let lamp = || ball([0.0, 0.0, 1.0], 3.0, radius);
         let full = radius * radius;
-        // At half the height: a disc by its tangent, a sphere by its sine.
+        // At half the height, or brought nearer to be before the lamp: a disc by its tangent, a
+        // sphere by its sine.
         let by_disc = size * size / (size * size + 0.25);
         let by_sphere = 4.0 * size * size;
         let left = |hidden: f64| (1.0 - hidden / full).max(0.0) * 3.0;
-        let found = shadowed(lamp(), disc([0.0, 0.0, 0.5], size));
+        let found = shadowed(lamp(), disc([0.0, 0.0, 0.2], 0.4 * size));
         found.assert_is(left(by_disc), "a disc");
         assert_eq!(found.within == 0.0, by_disc >= full, "umbra has no noise");
         if size < 0.5 {
-            let found = shadowed(lamp(), Shape::sphere([0.0, 0.0, 0.5], size, black()));
+            let found = shadowed(lamp(), Shape::sphere([0.0, 0.0, 0.2], 0.4 * size, black()));
             found.assert_is(left(by_sphere), "a sphere");
             assert_eq!(found.within == 0.0, by_sphere >= full, "umbra has no noise");
         }
@@ -149,8 +150,9 @@ fn a3_shadows_off_the_axis() {
     ];
     for (at, radius) in lamps {
         let lamp = || ball(at, 2.0, radius);
-        let top = [0.5 * at[0], 0.5 * at[1], 0.5 * (at[2] + 0.5 * radius)];
-        let (centre, size) = (top, 0.3 * radius);
+        // Between the floor and the lamp, to one side of its middle.
+        let centre = [0.25 * at[0], 0.25 * at[1], 0.25 * (at[2] + 0.5 * radius)];
+        let size = 0.15 * radius;
         let found = shadowed(lamp(), disc(centre, size));
         let expected =
             by_parts(at, 2.0, radius, |d| if meets_disc(d, centre, size) { 0.0 } else { 1.0 });
@@ -170,8 +172,8 @@ fn a3_shadows_off_the_axis() {
 #[test]
 fn light_of_a_ball_goes_through_what_is_clear() {
     let smoke = smoke([2.0; 3]);
-    let slab = Shape::cuboid([-9.0, -9.0, 0.1], [9.0, 9.0, 0.3], smoke);
-    let at = [0.4, 0.0, 0.8];
+    let slab = Shape::cuboid([-9.0, -9.0, 0.3], [9.0, 9.0, 0.5], smoke);
+    let at = [0.4, 0.0, 1.6];
     let found = shadowed(ball(at, 2.0, 0.4), slab);
     let expected = by_parts(at, 2.0, 0.4, |d| libm::exp(-2.0 * 0.2 / d[2]));
     found.assert_is(expected, "smoke");
