@@ -18,7 +18,7 @@
 //! has right values instead of goldens, are not looked into.
 
 use crate::paths::{Beside, all_with_extension, goldens, name_of, scenes};
-use lancer_integrator::{RenderSettings, engine_by_name, render};
+use lancer_integrator::{RenderSettings, Sampling, engine_by_name, render};
 use lancer_output::{
     Bits, Comparison, Format, Picture, compare, decode, difference_picture, encode, encode_rgb8,
 };
@@ -39,6 +39,8 @@ pub struct Settings {
     pub engine: String,
     /// Width and height in pixels, if not the scene's own.
     pub size: Option<[u32; 2]>,
+    /// So many samples in each pixel; one at its centre where this is missing.
+    pub samples: Option<u32>,
     /// The largest difference to accept, in levels of 255.
     #[serde(default)]
     pub max_diff: f64,
@@ -186,8 +188,12 @@ impl Golden {
     pub fn render(&self) -> Result<Vec<u8>, Problem> {
         let engine = engine_by_name(self.engine())
             .ok_or_else(|| problem(format!("{}: no such engine", self.name)))?;
-        let settings =
-            RenderSettings { threads: Some(NonZeroUsize::MIN), ..RenderSettings::default() };
+        let samples = self.settings.samples;
+        let settings = RenderSettings {
+            threads: Some(NonZeroUsize::MIN),
+            sampling: samples.map(|_| Sampling { samples, ..Sampling::default() }),
+            ..RenderSettings::default()
+        };
         let rendered = render(&self.scene()?, engine, &settings).map_err(problem)?;
         encode(&rendered.film, Format::Png, Bits::Eight).map_err(problem)
     }

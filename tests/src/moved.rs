@@ -85,6 +85,7 @@ pub fn placed(scene: &Scene, isometry: &Placement) -> Result<Scene, Unmovable> {
     camera.up = turned(old.up)?;
     camera.roll = Degrees::new(if mirrors { -old.roll.get() } else { old.roll.get() })?;
     camera.exposure = old.exposure;
+    (camera.aperture, camera.focus) = (old.aperture, old.focus);
     let lights = scene.lights.iter().map(light).collect::<Result<_, OutOfRange>>()?;
     Ok(Scene { camera, lights, groups, shapes: Vec::new(), ..scene.clone() })
 }
@@ -130,6 +131,8 @@ fn mapped(
     let (origin, target) = (map.position(old.origin())?, map.position(old.target())?);
     let mut camera = Camera::from_values(origin, target, projection, old.px_width, old.px_height)?;
     (camera.up, camera.roll, camera.exposure) = (old.up, old.roll, old.exposure);
+    let length = |length: Option<Length>| length.map(|length| map.length(length)).transpose();
+    (camera.aperture, camera.focus) = (length(old.aperture)?, length(old.focus)?);
     let lights = scene.lights.iter().map(|light| map.light(light)).collect::<Result<_, _>>()?;
     let shapes = scene.shapes.iter().map(|shape| map.shape(shape)).collect::<Result<_, _>>()?;
     let groups = scene.groups.iter().map(|placed| map.placed(placed)).collect::<Result<_, _>>()?;
@@ -152,9 +155,10 @@ impl Map<'_> {
     fn light(&self, light: &Light) -> Result<Light, OutOfRange> {
         let mut light = *light;
         match &mut light {
-            Light::Lamp { point, brightness, falloff }
-            | Light::Spot { point, brightness, falloff, .. } => {
+            Light::Lamp { point, radius, brightness, falloff }
+            | Light::Spot { point, radius, brightness, falloff, .. } => {
                 *point = self.position(*point)?;
+                *radius = radius.map(|radius| self.length(radius)).transpose()?;
                 if *falloff == Falloff::Square {
                     *brightness = Brightness::new(brightness.get() * self.factor * self.factor)?;
                 }

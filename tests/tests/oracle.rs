@@ -32,6 +32,10 @@ fn whitted_sees_what_is_there() {
         }
         let mut scene = golden.scene().unwrap_or_else(|e| panic!("{e}"));
         let smaller = |side: PixelCount| PixelCount::new(side.get().div_ceil(8)).expect("above 0");
+        if scene.camera.aperture.is_some() || scene.lights.iter().any(|l| l.radius().is_some()) {
+            // Such pixels are integrals, which the oracle does not find.
+            continue;
+        }
         scene.camera.px_width = smaller(scene.camera.px_width);
         scene.camera.px_height = smaller(scene.camera.px_height);
         let engine = Whitted::with_cutoff(CUTOFF).expect("in range");

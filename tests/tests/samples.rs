@@ -3,15 +3,20 @@
 
 use lancer_film::{Size, Window};
 use lancer_integrator::{
-    Engine, KernelSettings, MOST_SAMPLES, RayCounts, Sample, Sampler, Seen, Stream, TILE_SIDE,
-    Whitted, Width,
+    Culling, Engine, KernelSettings, MOST_SAMPLES, RayCounts, Sample, Sampler, Seen, Stream,
+    TILE_SIDE, Tracer, Whitted, Width,
 };
 use lancer_scene::{PixelCount, Scene};
 use lancer_tests::{golden, random};
 
 fn all_widths() -> Vec<KernelSettings> {
     let widths = Width::available().into_iter();
-    widths.map(|lanes| KernelSettings { lanes, ..KernelSettings::default() }).collect()
+    let mut all: Vec<_> =
+        widths.map(|lanes| KernelSettings { lanes, ..KernelSettings::default() }).collect();
+    // Without this, more shadows are looked for.
+    let culling = Culling { full_mirrors: true, ..Culling::NONE };
+    all.push(KernelSettings { culling, ..KernelSettings::default() });
+    all
 }
 
 fn small(mut scene: Scene, [width, height]: [u32; 2]) -> Scene {
@@ -109,6 +114,34 @@ fn the_scenes_that_people_read() {
             let scene = golden.scene().expect("the scene is valid");
             check(&golden.name, &small(scene, [64, 48]));
         }
+    }
+}
+
+/// The same with lamps that are balls, and a camera with a lens.
+fn blurred(mut scene: Scene, seed: u64) -> Scene {
+    let mut rng = fastrand::Rng::with_seed(seed);
+    for light in &mut scene.lights {
+        let radius = [0.0, 1e-3, 0.3, 2.0][rng.usize(0..4)];
+        *light = light.with_radius(radius).expect("at least 0");
+    }
+    if rng.u8(0..3) > 0 {
+        scene.camera = scene.camera.aperture(0.4 * rng.f64()).expect("at least 0");
+    }
+    scene
+}
+
+/// With every width of lanes and with nothing left out by proof.
+#[test]
+fn lamps_and_lenses() {
+    for (seed, golden) in (0..).zip(golden::all().expect("the settings are valid")) {
+        if golden.engine() == "whitted" {
+            let scene = golden.scene().expect("the scene is valid");
+            check(&golden.name, &blurred(small(scene, [32, 24]), seed));
+        }
+    }
+    for seed in 0..24 {
+        let scene = blurred(random::scene(seed, [19, 17]), seed);
+        check(&format!("seed {seed}"), &scene);
     }
 }
 

@@ -26,6 +26,7 @@
 mod classic;
 mod counts;
 mod direct;
+mod disc;
 mod enclose;
 mod engine;
 mod numbers;

@@ -28,6 +28,10 @@ pub(crate) fn light(scene: &Scene, world: &World<'_>, lit: &Lit<'_>) -> (Rgb, f6
 
 fn from(light: &Light, shadows: Shadows, world: &World<'_>, lit: &Lit<'_>) -> (Rgb, f64) {
     let bits = world.bits();
+    if light.radius().is_some() {
+        // What comes from a ball is not known here.
+        return (Rgb::black(), 0.0);
+    }
     let (way_there, is_sun) = match light {
         Light::Lamp { point, .. } | Light::Spot { point, .. } => {
             (&Triple::from(point.get()) - lit.point, false)

@@ -123,12 +123,13 @@ impl<'a> Tracer<'a> {
         &self.world
     }
 
-    /// What pixel (`x`, `y`) sees.
+    /// What pixel (`x`, `y`) sees. Through a lens, and where a lamp with a radius may shine,
+    /// nothing is sure: the margin is 0.
     #[must_use]
     pub fn follow(&self, x: u32, y: u32) -> Pixel {
         let line = pixel_line(&self.scene.camera, x, y, self.world.bits());
-        let mut notes =
-            Notes { radiance: Rgb::black(), missing: 0.0, margin: f64::INFINITY, rays: 0 };
+        let margin = if self.scene.camera.aperture.is_some() { 0.0 } else { f64::INFINITY };
+        let mut notes = Notes { radiance: Rgb::black(), missing: 0.0, margin, rays: 0 };
         let tree = self.branch(Kind::Primary, line, Rgb::white(), &mut notes);
         Pixel { radiance: notes.radiance, missing: notes.missing, margin: notes.margin, tree }
     }

@@ -14,6 +14,13 @@ pub struct Camera {
     /// How far the camera is turned about its axis, clockwise as seen from
     /// behind it: the picture turns counterclockwise.
     pub roll: Degrees,
+    /// The diameter of its lens, which lies around `origin` across the view; around the
+    /// start of each ray where they are parallel. `None` for a pinhole, to which
+    /// everything is sharp.
+    pub aperture: Option<Length>,
+    /// How far from the lens, along the axis, the plane is that is seen sharply; `None`
+    /// for the plane through `target`.
+    pub focus: Option<Length>,
     /// How radiance becomes brightness on a display.
     pub exposure: Exposure,
     /// The width of the picture in pixels.
@@ -115,6 +122,8 @@ impl Camera {
             projection,
             up: Direction::Z,
             roll: Degrees::ZERO,
+            aperture: None,
+            focus: None,
             exposure: Exposure::Auto,
             px_width,
             px_height,
@@ -156,6 +165,27 @@ impl Camera {
     pub fn roll(self, degrees: f64) -> Result<Self, InvalidField> {
         let roll = Degrees::new(degrees).map_err(|e| e.in_field("roll"))?;
         Ok(Self { roll, ..self })
+    }
+
+    /// The same camera with a thin lens of that diameter, or with 0 with a pinhole. What
+    /// is at a distance of z along the axis is blurred to a disc that is as wide as the lens
+    /// times |z - focus| / z, seen in the plane in focus; times |z - focus| / focus where rays
+    /// are parallel.
+    ///
+    /// # Errors
+    /// Where `diameter` is not a finite number of at least 0.
+    pub fn aperture(self, diameter: f64) -> Result<Self, InvalidField> {
+        let aperture = Length::or_none(diameter).map_err(|e| e.in_field("aperture"))?;
+        Ok(Self { aperture, ..self })
+    }
+
+    /// The same camera, focused on the plane at that distance along its axis.
+    ///
+    /// # Errors
+    /// Where `distance` is not a finite number above 0.
+    pub fn focus(self, distance: f64) -> Result<Self, InvalidField> {
+        let focus = Length::new(distance).map_err(|e| e.in_field("focus"))?;
+        Ok(Self { focus: Some(focus), ..self })
     }
 
     /// The same camera, exposed by so many stops.

@@ -109,6 +109,12 @@ impl Display for Camera {
         if self.roll.get() != 0.0 {
             write!(f, " roll {}", self.roll.get())?;
         }
+        if let Some(aperture) = self.aperture {
+            write!(f, " aperture {}", aperture.get())?;
+        }
+        if let Some(focus) = self.focus {
+            write!(f, " focus {}", focus.get())?;
+        }
         if let Exposure::Stops(stops) = self.exposure {
             write!(f, " exposure {}", stops.get())?;
         }
@@ -125,6 +131,9 @@ impl Display for Light {
                 write!(f, "spot point {} axis {}", xyz(point.get()), vector(axis.get()))?;
                 write!(f, " inner {} outer {}", beam.inner().get(), beam.outer().get())?;
             }
+        }
+        if let Some(radius) = self.radius() {
+            write!(f, " radius {}", radius.get())?;
         }
         write!(f, " brightness {}", self.brightness().get())?;
         match self {
@@ -236,12 +245,16 @@ mod tests {
         let camera = Camera::new([0.0, -1.5, 1e-7], [0.0, 1.0, 0.1], 2.0, [40, 30]);
         let scene = Scene::builder()
             .camera(camera.and_then(|camera| {
-                camera.field_of_view(50.0)?.up([0.0, 0.5, 2.0])?.roll(3.0)?.stops(-1.5)
+                let camera = camera.field_of_view(50.0)?.up([0.0, 0.5, 2.0])?.roll(3.0)?;
+                camera.aperture(0.25)?.focus(7.0)?.stops(-1.5)
             }))
             .background(Spectrum::new([0.25, 0.5, 1.0]))
             .light(Light::sun([0.0, 0.0, -1.0], 0.25))
             .light(Light::lamp([1.0, 2.0, 3.0], 1.0).map(Light::without_falloff))
-            .light(Light::spot([0.0; 3], [1.0, 0.0, 0.0], [10.0, 20.0], 3.0))
+            .light(
+                Light::spot([0.0; 3], [1.0, 0.0, 0.0], [10.0, 20.0], 3.0)
+                    .and_then(|spot| spot.with_radius(0.5)),
+            )
             .shape(Ok(ball))
             .shape(Shape::plane([0.0; 3], [0.0, 0.0, 2.0], Surface::new(Colour::BROWN)))
             .shape(Shape::torus([0.0; 3], [0.0, 0.0, 2.0], [2.0, 0.5], glass))
@@ -252,11 +265,11 @@ mod tests {
         assert_eq!(
             scene.to_string(),
             "camera origin 0 -1.5 0.0000001 target 0 1 0.1 fov 50 up 0 0.5 2 roll 3 \
-             exposure -1.5 pixels 40 x 30\n\
+             aperture 0.25 focus 7 exposure -1.5 pixels 40 x 30\n\
              background 0.25 0.5 1\n\
              sun direction 0 0 -1 brightness 0.25\n\
              lamp point 1 2 3 brightness 1 falloff none\n\
-             spot point 0 0 0 axis 1 0 0 inner 10 outer 20 brightness 3\n\
+             spot point 0 0 0 axis 1 0 0 inner 10 outer 20 radius 0.5 brightness 3\n\
              sphere centre 0 0 0 radius 0.1 colour #ff7de1 gloss 0.1 checker #00821e\n\
              plane origin 0 0 0 normal 0 0 2 colour #8a4829 gloss 0\n\
              torus centre 0 0 0 axis 0 0 2 ring 2 tube 0.5 colour #ffffff gloss 0 \

@@ -1,4 +1,4 @@
-use crate::{Brightness, Degrees, Direction, InvalidField, OutOfRange, Position};
+use crate::{Brightness, Degrees, Direction, InvalidField, Length, OutOfRange, Position};
 
 /// A source of white light. None of them can be seen itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -7,6 +7,9 @@ pub enum Light {
     Lamp {
         /// Where it is.
         point: Position,
+        /// That of the ball around `point` from whose whole surface it shines equally
+        /// in all directions; `None` where it shines from the point alone.
+        radius: Option<Length>,
         /// How strong it is at distance 1.
         brightness: Brightness,
         /// How it weakens with distance.
@@ -23,6 +26,9 @@ pub enum Light {
     Spot {
         /// Where it is.
         point: Position,
+        /// That of the ball from whose surface it shines, as a lamp does; what the beam
+        /// leaves of its light goes by the direction from `point`.
+        radius: Option<Length>,
         /// The direction of the middle of its light; any length.
         axis: Direction,
         /// The beam.
@@ -99,6 +105,7 @@ impl Light {
     pub fn lamp(point: [f64; 3], brightness: f64) -> Result<Self, InvalidField> {
         Ok(Self::Lamp {
             point: Position::new(point).map_err(|e| e.in_field("point"))?,
+            radius: None,
             brightness: Brightness::new(brightness).map_err(|e| e.in_field("brightness"))?,
             falloff: Falloff::Square,
         })
@@ -130,6 +137,7 @@ impl Light {
     ) -> Result<Self, InvalidField> {
         Ok(Self::Spot {
             point: Position::new(point).map_err(|e| e.in_field("point"))?,
+            radius: None,
             axis: Direction::new(axis).map_err(|e| e.in_field("axis"))?,
             beam: Beam::new(inner, outer)?,
             brightness: Brightness::new(brightness).map_err(|e| e.in_field("brightness"))?,
@@ -145,6 +153,30 @@ impl Light {
             Self::Sun { .. } => {}
         }
         self
+    }
+
+    /// The same light from a ball of that radius around its point, or with 0 from the
+    /// point alone; suns have none. What a surface gets from a ball that is wholly above
+    /// its horizon, and that nothing hides, is what it gets from the point.
+    ///
+    /// # Errors
+    /// Where `radius` is not a finite number of at least 0.
+    pub fn with_radius(mut self, radius: f64) -> Result<Self, InvalidField> {
+        let new = Length::or_none(radius).map_err(|e| e.in_field("radius"))?;
+        match &mut self {
+            Self::Lamp { radius, .. } | Self::Spot { radius, .. } => *radius = new,
+            Self::Sun { .. } => {}
+        }
+        Ok(self)
+    }
+
+    /// The radius of the ball that it shines from, if it does so.
+    #[must_use]
+    pub const fn radius(&self) -> Option<Length> {
+        match self {
+            Self::Lamp { radius, .. } | Self::Spot { radius, .. } => *radius,
+            Self::Sun { .. } => None,
+        }
     }
 
     /// How strong it is.

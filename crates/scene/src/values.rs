@@ -82,6 +82,20 @@ impl Length {
         }
     }
 
+    /// The same where there may be none at all, which 0 says.
+    ///
+    /// # Errors
+    /// Where `value` is NaN, infinite or negative.
+    pub fn or_none(value: f64) -> Result<Option<Self>, OutOfRange> {
+        if value >= 0.0 && value.is_finite() {
+            Ok((value > 0.0).then_some(Self(value)))
+        } else if value.is_finite() {
+            Err(OutOfRange::new(value, "a number of at least 0"))
+        } else {
+            Err(OutOfRange::new(value, "a finite number of at least 0"))
+        }
+    }
+
     /// The length itself.
     #[must_use]
     pub const fn get(self) -> f64 {
@@ -301,7 +315,7 @@ mod tests {
     #[test]
     fn nothing_that_is_not_a_number_gets_in() {
         for bad in BAD {
-            assert!(Length::new(bad).is_err());
+            assert!(Length::new(bad).is_err() && Length::or_none(bad).is_err());
             assert!(Fraction::new(bad).is_err());
             assert!(Ior::new(bad).is_err());
             assert!(Degrees::new(bad).is_err() && Degrees::view(bad).is_err());
@@ -322,6 +336,9 @@ mod tests {
         assert!(Length::new(0.0).is_err());
         assert!(Length::new(-0.0).is_err());
         assert!(Length::new(5e-324).is_ok());
+        assert_eq!(Length::or_none(-0.0), Ok(None));
+        assert!(Length::or_none(5e-324).is_ok_and(|length| length.is_some()));
+        assert!(Length::or_none(-5e-324).is_err());
         assert!(Fraction::new(0.0).is_ok() && Fraction::new(1.0).is_ok());
         assert!(Fraction::new(-1e-9).is_err() && Fraction::new(1.000_000_001).is_err());
         assert!(Ior::new(0.0).is_err() && Ior::new(0.75).is_ok());

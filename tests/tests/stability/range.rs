@@ -48,8 +48,8 @@ fn checker(map: Map) -> Surface {
 
 fn without_falloff(light: Result<Light, InvalidField>) -> Result<Light, InvalidField> {
     light.map(|light| match light {
-        Light::Lamp { point, brightness, .. } => {
-            Light::Lamp { point, brightness, falloff: Falloff::None }
+        Light::Lamp { point, radius, brightness, .. } => {
+            Light::Lamp { point, radius, brightness, falloff: Falloff::None }
         }
         other => other,
     })

@@ -14,12 +14,19 @@ pub(crate) fn refusals(scene: &Scene) -> Vec<String> {
     if !(up.x == 0.0 && up.y == 0.0 && up.z > 0.0) || camera.roll.get() != 0.0 {
         refusals.push("the camera is turned about its axis".to_owned());
     }
+    if camera.aperture.is_some() {
+        refusals.push("the camera has a lens".to_owned());
+    }
     if !scene.background.is_none() {
         refusals.push("there is a background".to_owned());
     }
     let spots = scene.lights.iter().filter(|light| matches!(light, Light::Spot { .. })).count();
     if spots > 0 {
         refusals.push(format!("there are spots among the lights ({spots})"));
+    }
+    let balls = scene.lights.iter().filter(|light| light.radius().is_some()).count();
+    if balls > 0 {
+        refusals.push(format!("there are lamps with a radius ({balls})"));
     }
     if !scene.groups.is_empty() {
         refusals.push(format!("there are groups ({})", scene.groups.len()));

@@ -1,12 +1,13 @@
+use super::ball::Ball;
 use super::fresnel::{mirrored_by_sheet, mirrored_of_unbent};
 use super::media::{Media, medium, transmittance};
 use super::signature::{self, Signing, Spot, Way};
 use super::stops::Stops;
-use super::tracer::{Place, Rgb64, times};
+use super::tracer::{Place, Rgb64, Task, times};
 use crate::RayCounts;
 use lancer_kernel::{Prepared, SurfacePoint, Which};
 use lancer_math::{Point, Ray, Vector, sin_cos_degrees, unit};
-use lancer_scene::{Beam, Falloff, Light, Scene, Shadows};
+use lancer_scene::{Beam, Falloff, Length, Light, Position, Scene, Shadows};
 
 /// The lights of a scene, in its order.
 #[derive(Debug)]
@@ -33,6 +34,17 @@ pub(super) enum From {
     Point(Point),
     /// The direction to a sun, of length 1.
     Direction(Vector),
+    /// The surface of a ball.
+    Ball(Point, f64),
+}
+
+impl From {
+    fn new(point: Position, radius: Option<Length>) -> Self {
+        match radius {
+            Some(radius) => Self::Ball(point.get(), radius.get()),
+            None => Self::Point(point.get()),
+        }
+    }
 }
 
 /// The cone of a spot.
@@ -80,21 +92,115 @@ pub(super) struct Seen<'a> {
     pub(super) media: &'a Media,
 }
 
+/// What a source makes of a white matte surface, if nothing hides it.
+struct Shining {
+    strength: f64,
+    mark: f64,
+    /// The ray to it; none where what was drawn of it is behind the surface.
+    ray: Option<Ray>,
+    t_max: f64,
+}
+
+impl Source {
+    /// From that way, at whose end is the lamp, or none for a sun. None where there is no
+    /// light.
+    fn from_there(&self, seen: &Seen<'_>, way: Vector, lamp: Option<&Point>) -> Option<Shining> {
+        let along = way.dot(&seen.shading);
+        // Not for NaN either: a lamp in the very point lights nothing.
+        if !(along > 0.0 && way.dot(&seen.facet) > 0.0) {
+            return None;
+        }
+        let squared = if lamp.is_some() { way.norm_squared() } else { 1.0 };
+        let distance = squared.sqrt();
+        // The cosine, over the square where light falls off, by one division.
+        let strength = match self.falloff {
+            Falloff::Square => self.brightness * along / (squared * distance),
+            Falloff::None => self.brightness * along / distance,
+        };
+        let (strength, mark) = self.in_beam(strength, || way / -distance)?;
+        let mut ray = seen.leave(way);
+        let mut t_max = f64::INFINITY;
+        if let Some(lamp) = lamp {
+            // From where the ray starts it is 1 to the lamp.
+            (ray.direction, t_max) = (lamp - ray.origin, 1.0);
+        }
+        Some(Shining { strength, mark, ray: Some(ray), t_max })
+    }
+
+    /// From a ball, of which two numbers draw a point.
+    fn from_ball(
+        &self,
+        seen: &Seen<'_>,
+        (centre, radius): (&Point, f64),
+        numbers: impl FnOnce() -> [f64; 2],
+    ) -> Option<Shining> {
+        let point = seen.point.point;
+        let (ball, strength, mark) =
+            self.ball(centre - point, radius, [seen.shading, seen.facet])?;
+        let ray = ball.point(numbers()).map(|way| {
+            let mut ray = seen.leave(way);
+            ray.direction = (point + way) - ray.origin;
+            ray
+        });
+        Some(Shining { strength, mark, ray, t_max: 1.0 })
+    }
+
+    /// The ball lamp that it is, that way from a point of a surface with a normal to shade
+    /// with and a facet's, on the side that is seen; its strength there, and its mark. None where
+    /// there is no light.
+    pub(super) fn ball(
+        &self,
+        way: Vector,
+        radius: f64,
+        normals: [Vector; 2],
+    ) -> Option<(Ball, f64, f64)> {
+        let ball = Ball::new(way, radius, normals);
+        let strength = ball.strength(self.brightness, self.falloff);
+        if strength == 0.0 {
+            return None;
+        }
+        // In its very centre there is no direction, and no beam.
+        let direction = || unit(-way).unwrap_or_else(Vector::zeros);
+        let (strength, mark) = self.in_beam(strength, direction)?;
+        Some((ball, strength, mark))
+    }
+
+    /// What its beam leaves of a strength in that direction from the source, and the mark of
+    /// that; none where there is no light.
+    fn in_beam(&self, strength: f64, direction: impl FnOnce() -> Vector) -> Option<(f64, f64)> {
+        let (mut strength, mut mark) = (strength, self.marks[0]);
+        if let Some(beam) = &self.beam {
+            let share = beam.share(&direction());
+            strength *= share;
+            if share != 1.0 {
+                mark = self.marks[1];
+            }
+        }
+        (strength != 0.0).then_some((strength, mark))
+    }
+}
+
+/// Which of a sample's numbers draw a point of a light of that number, for the surface that the
+/// ray on that way met. The first two are taken.
+pub(super) fn dimension(way: Way, light: usize) -> u32 {
+    signature::hash(way.end() ^ signature::hash(light as u64)) as u32 | 2
+}
+
 impl Lights {
     pub(super) fn new(scene: &Scene) -> Self {
         let source = |(number, light): (u64, &Light)| {
             let marks = [2 * number, 2 * number + 1].map(signature::mark);
             match light {
-                Light::Lamp { point, brightness, falloff } => Source {
+                Light::Lamp { point, radius, brightness, falloff } => Source {
                     brightness: brightness.get(),
-                    place: From::Point(point.get()),
+                    place: From::new(*point, *radius),
                     falloff: *falloff,
                     beam: None,
                     marks,
                 },
-                Light::Spot { point, axis, beam, brightness, falloff } => Source {
+                Light::Spot { point, radius, axis, beam, brightness, falloff } => Source {
                     brightness: brightness.get(),
-                    place: From::Point(point.get()),
+                    place: From::new(*point, *radius),
                     falloff: *falloff,
                     beam: Some(Cone::new(axis.get(), beam)),
                     marks,
@@ -113,57 +219,32 @@ impl Lights {
         Self { lights, shadows: scene.shadows }
     }
 
-    /// The radiance of a white matte surface there. Which lights arrive, and through what,
-    /// is added to the spot.
+    /// The radiance of a white matte surface there, which the ray on that way met. Which
+    /// lights arrive, and through what, is added to the spot.
     pub(super) fn gather<S: Signing>(
         &self,
         prepared: &Prepared,
         seen: &Seen<'_>,
         (spot, counts): (&mut Spot, &mut RayCounts),
-        place: Place,
+        (task, way): (&Task, Way),
     ) -> Rgb64 {
         let mut sum = [0.0; 3];
-        for light in &self.lights {
-            let (way, squared, t_max) = match &light.place {
-                From::Direction(direction) => (*direction, 1.0, f64::INFINITY),
-                From::Point(lamp) => {
-                    let way = lamp - seen.point.point;
-                    // From where the shadow ray starts it is 1 to the lamp.
-                    (way, way.norm_squared(), 1.0)
-                }
+        for (number, light) in self.lights.iter().enumerate() {
+            let shining = match &light.place {
+                From::Direction(direction) => light.from_there(seen, *direction, None),
+                From::Point(lamp) => light.from_there(seen, lamp - seen.point.point, Some(lamp)),
+                From::Ball(centre, radius) => light.from_ball(seen, (centre, *radius), || {
+                    task.stream.pair(dimension(way, number))
+                }),
             };
-            let along = way.dot(&seen.shading);
-            // Not for NaN either: a lamp in the very point lights nothing.
-            if !(along > 0.0 && way.dot(&seen.facet) > 0.0) {
-                continue;
-            }
-            let distance = squared.sqrt();
-            // The cosine, over the square where light falls off, by one division.
-            let mut strength = match light.falloff {
-                Falloff::Square => light.brightness * along / (squared * distance),
-                Falloff::None => light.brightness * along / distance,
-            };
-            let mut mark = light.marks[0];
-            if let Some(beam) = &light.beam {
-                let share = beam.share(&(way / -distance));
-                strength *= share;
-                if share != 1.0 {
-                    mark = light.marks[1];
-                }
-            }
-            if strength == 0.0 {
-                continue;
-            }
+            let Some(Shining { strength, mark, ray, t_max }) = shining else { continue };
             counts.shadow += 1;
-            let mut ray = seen.leave(way);
-            if let From::Point(lamp) = &light.place {
-                ray.direction = lamp - ray.origin;
-            }
+            let Some(ray) = ray else { continue };
             if prepared.any(&ray, t_max, Which::Opaque) {
                 continue;
             }
             let (on, to) = ((&ray, t_max), (&mut *spot, &mut *counts));
-            let arrives = self.through::<S>(prepared, on, seen.media, to, place);
+            let arrives = self.through::<S>(prepared, on, seen.media, to, task.pixel);
             if S::SIGNED && arrives != [0.0; 3] {
                 spot.lit += mark;
             }

@@ -2,6 +2,7 @@
 //! Model for Shaded Display*, 1980): light of lamps and suns with shadows,
 //! mirrors, and glass with media that are tracked.
 
+mod ball;
 mod fresnel;
 mod lights;
 mod media;

@@ -5,7 +5,7 @@ use super::signature::{self, MIRRORED, ONWARD, Signed, Signing, Spot, Unsigned, 
 use super::stops::Stop;
 use super::view::View;
 use crate::engine::in_parts;
-use crate::{MOST_SAMPLES, RayCounts, Rgb, Sample, Sampler, Tracer};
+use crate::{MOST_SAMPLES, RayCounts, Rgb, Sample, Sampler, Stream, Tracer};
 use lancer_film::{LayerPixel, Window};
 use lancer_kernel::{KernelSettings, Prepared, SurfacePoint};
 use lancer_math::{Ray, Vector};
@@ -18,6 +18,26 @@ pub(super) type Rgb64 = [f64; 3];
 
 /// Column and row of a pixel.
 pub(super) type Place = (u32, u32);
+
+/// What rays are followed for.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Task {
+    pub(super) pixel: Place,
+    /// The numbers of the sample.
+    pub(super) stream: Stream,
+}
+
+impl Task {
+    /// A pixel that is seen at its centre.
+    pub(super) fn of_pixel(pixel: Place) -> Self {
+        Self { pixel, stream: Stream::new(0, pixel, 0, 0) }
+    }
+
+    /// A sample.
+    pub(super) const fn of_sample(sample: &Sample) -> Self {
+        Self { pixel: sample.pixel, stream: sample.stream }
+    }
+}
 
 pub(super) fn times(a: Rgb64, b: Rgb64) -> Rgb64 {
     [a[0] * b[0], a[1] * b[1], a[2] * b[2]]
@@ -102,7 +122,7 @@ struct Sum<'a> {
     /// What the shares of those that were given up add up to.
     given_up: f64,
     counts: &'a mut RayCounts,
-    place: Place,
+    task: Task,
 }
 
 impl WhittedTracer {
@@ -131,8 +151,8 @@ impl WhittedTracer {
     }
 
     /// The ray of a place of the picture and the solids that it starts in.
-    fn primary(&self, [x, y]: [f64; 2]) -> (Ray, Media) {
-        let ray = self.view.ray(x, y);
+    fn primary(&self, at: [f64; 2], stream: Stream) -> (Ray, Media) {
+        let ray = self.view.ray_of_sample(at, stream);
         let media = match self.view.eye() {
             Some(_) => self.around_eye.clone(),
             None => Media::new(self.prepared.solids_at(&ray.origin)),
@@ -141,16 +161,16 @@ impl WhittedTracer {
     }
 
     /// What is seen at a place, followed alone, and its signature.
-    fn alone<S: Signing>(&self, at: [f64; 2], place: Place, counts: &mut RayCounts) -> (Rgb, u64) {
-        let (ray, media) = self.primary(at);
+    fn alone<S: Signing>(&self, at: [f64; 2], task: Task, counts: &mut RayCounts) -> (Rgb, u64) {
+        let (ray, media) = self.primary(at, task.stream);
         let (depth, number, kind, way) = (0, 0, Kind::Primary, Way::EYE);
         let first = Pending { ray, share: [1.0; 3], media, depth, number, kind, way };
-        let (radiance, signature) = self.sum::<S>(first, ([0.0; 3], 0), place, counts);
+        let (radiance, signature) = self.sum::<S>(first, ([0.0; 3], 0), task, counts);
         let radiance = radiance.map(|v| v as f32);
         if radiance.iter().all(|v| v.is_finite()) {
             return (radiance, signature);
         }
-        counts.troubles.not_finite.at(place);
+        counts.troubles.not_finite.at(task.pixel);
         ([0.0; 3], signature)
     }
 
@@ -160,19 +180,19 @@ impl WhittedTracer {
         &self,
         (ray, share, depth, kind): (Ray, Rgb64, u32, Kind),
         (way, known): (Way, (Rgb64, u64)),
-        place: Place,
+        task: Task,
         counts: &mut RayCounts,
     ) -> (Rgb64, u64) {
         let (media, number) = (Media::default(), depth);
         let next = Pending { ray, share, media, depth, number, kind, way };
-        self.sum::<S>(next, known, place, counts)
+        self.sum::<S>(next, known, task, counts)
     }
 
     fn sum<S: Signing>(
         &self,
         first: Pending,
         (radiance, signature): (Rgb64, u64),
-        place: Place,
+        task: Task,
         counts: &mut RayCounts,
     ) -> (Rgb64, u64) {
         let mut sum = Sum {
@@ -183,7 +203,7 @@ impl WhittedTracer {
             rays: first.number,
             given_up: 0.0,
             counts,
-            place,
+            task,
         };
         self.follow::<S>(first, &mut sum);
         // The largest shares first, and until all that are left together are small
@@ -200,7 +220,7 @@ impl WhittedTracer {
         // Without rays nothing is left, whatever rounding has made of the sum.
         let left = if sum.pending.is_empty() { 0.0 } else { sum.left };
         if left + sum.given_up > self.cutoff {
-            sum.counts.troubles.given_up.at(place);
+            sum.counts.troubles.given_up.at(task.pixel);
         }
         (sum.radiance, sum.signature)
     }
@@ -245,7 +265,7 @@ impl WhittedTracer {
         let seen = Seen::new(&at.ray, point, more, &at.media);
         let gloss = point.surface.gloss.get();
         sum.add(at.share, point.surface.emission.get());
-        let spot = self.matte::<S>(&seen, scaled(at.share, 1.0 - gloss), sum);
+        let spot = self.matte::<S>(&seen, scaled(at.share, 1.0 - gloss), at.way, sum);
         if S::SIGNED {
             sum.sign(at.way.meets(Some(point.item)).at(spot.lit, spot.piece));
         }
@@ -269,7 +289,7 @@ impl WhittedTracer {
             let mirrored =
                 mirrored_by_sheet(cosine, here.ior.get(), point.surface.medium.ior.get());
             sum.add(share, point.surface.emission.get());
-            let spot = self.matte::<S>(&seen, scaled(share, parts.matte), sum);
+            let spot = self.matte::<S>(&seen, scaled(share, parts.matte), way, sum);
             if S::SIGNED {
                 sum.sign(way.meets(Some(point.item)).at(spot.lit, spot.piece));
             }
@@ -284,7 +304,7 @@ impl WhittedTracer {
         let border = stop.border(&self.prepared, &mut beyond);
         let surface = border.as_ref().and_then(|border| {
             if !border.makes_sense {
-                sum.counts.troubles.media.at(sum.place);
+                sum.counts.troubles.media.at(sum.task.pixel);
             }
             border.surface.map(|(point, _)| (border, point))
         });
@@ -302,7 +322,7 @@ impl WhittedTracer {
         let n1 = medium(border.before, &self.prepared).ior.get();
         let n2 = medium(border.after, &self.prepared).ior.get();
         sum.add(share, point.surface.emission.get());
-        let mut spot = self.matte::<S>(&seen, scaled(share, parts.matte), sum);
+        let mut spot = self.matte::<S>(&seen, scaled(share, parts.matte), way, sum);
         let (reflected, transmitted) =
             ((Kind::Reflected, way.then(MIRRORED)), (Kind::Transmitted, way.then(ONWARD)));
         match seen.refract(ray.direction, n1, n2) {
@@ -325,7 +345,13 @@ impl WhittedTracer {
     }
 
     /// Adds what lights make of a surface's matte part, and says where on it that is.
-    fn matte<S: Signing>(&self, seen: &Seen<'_>, share: Rgb64, sum: &mut Sum<'_>) -> Spot {
+    fn matte<S: Signing>(
+        &self,
+        seen: &Seen<'_>,
+        share: Rgb64,
+        way: Way,
+        sum: &mut Sum<'_>,
+    ) -> Spot {
         let mut spot = match S::SIGNED {
             true => Spot::new(&self.prepared, seen.point, seen.from_behind),
             false => Spot::default(),
@@ -333,7 +359,7 @@ impl WhittedTracer {
         let share = times(share, seen.point.albedo);
         if share != [0.0; 3] {
             let to = (&mut spot, &mut *sum.counts);
-            let light = self.lights.gather::<S>(&self.prepared, seen, to, sum.place);
+            let light = self.lights.gather::<S>(&self.prepared, seen, to, (&sum.task, way));
             sum.add(share, light);
         }
         spot
@@ -448,14 +474,15 @@ impl Sampler for WhittedTracer {
     }
 
     fn see_alone(&self, sample: &Sample, counts: &mut RayCounts) -> crate::Seen {
-        let (radiance, signature) = self.alone::<Signed>(sample.place, sample.pixel, counts);
+        let (radiance, signature) =
+            self.alone::<Signed>(sample.place, Task::of_sample(sample), counts);
         crate::Seen { radiance, signature }
     }
 }
 
 impl Tracer for WhittedTracer {
     fn pixel(&self, x: u32, y: u32, counts: &mut RayCounts) -> Rgb {
-        self.alone::<Unsigned>(centre(x, y), (x, y), counts).0
+        self.alone::<Unsigned>(centre(x, y), Task::of_pixel((x, y)), counts).0
     }
 
     fn sampler(&self) -> Option<&dyn Sampler> {
@@ -473,7 +500,9 @@ impl Tracer for WhittedTracer {
     }
 
     fn first_hit(&self, x: u32, y: u32) -> Option<LayerPixel> {
-        let (ray, _) = self.primary(centre(x, y));
+        // Through the middle of a lens.
+        let [at_x, at_y] = centre(x, y);
+        let ray = self.view.ray(at_x, at_y);
         let Some(hit) = self.prepared.nearest(&ray, f64::INFINITY) else {
             return Some(LayerPixel::MISS);
         };

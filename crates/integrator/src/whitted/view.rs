@@ -1,4 +1,6 @@
 use super::tile::units;
+use crate::Stream;
+use crate::disc::in_disc;
 use lancer_kernel::lanes::{Lanes, Vectors};
 use lancer_math::{Point, Ray, Vector, sin_cos_degrees, unit};
 use lancer_scene::{Camera, Projection};
@@ -18,10 +20,20 @@ pub(super) struct View {
     right: Vector,
     up: Vector,
     is_parallel: bool,
+    lens: Option<Lens>,
     /// Half the side of a pixel on the image plane.
     half_pixel: f64,
     px_width: f64,
     px_height: f64,
+}
+
+/// A thin lens across the view, around the eye, or around the start of each parallel ray. All
+/// rays of a place of the picture meet in the plane in focus.
+#[derive(Debug, Clone, Copy)]
+struct Lens {
+    radius: f64,
+    /// How far the plane in focus is, as a multiple of `ahead`.
+    focus: f64,
 }
 
 /// Below this the view is along the camera's upward direction: 2^-50.
@@ -35,14 +47,24 @@ impl View {
         let axis = unit(to_target).unwrap_or_else(Vector::y);
         let (right, up) = frame(axis, camera.up.get(), camera.roll.get());
         let is_parallel = matches!(camera.projection, Projection::Orthographic(_));
+        let ahead = if is_parallel { axis } else { to_target };
+        let lens = camera.aperture.map(|aperture| Lens {
+            radius: 0.5 * aperture.get(),
+            focus: match camera.focus {
+                Some(focus) => focus.get() / ahead.norm(),
+                None if is_parallel => to_target.norm(),
+                None => 1.0,
+            },
+        });
         let (px_width, px_height) = (camera.px_width.get(), camera.px_height.get());
         Self {
             origin,
-            ahead: if is_parallel { axis } else { to_target },
+            ahead,
             axis,
             right,
             up,
             is_parallel,
+            lens,
             half_pixel: camera.plane_width() / (2.0 * f64::from(px_width)),
             px_width: f64::from(px_width),
             px_height: f64::from(px_height),
@@ -61,7 +83,29 @@ impl View {
         Ray::new(self.origin, unit(direction).unwrap_or(self.axis))
     }
 
-    /// The same for several places: a lane has the bits of [`ray`](Self::ray).
+    /// The ray of a place of the picture through the point of the lens, if there is one, that
+    /// a sample's numbers draw.
+    pub(super) fn ray_of_sample(&self, [x, y]: [f64; 2], stream: Stream) -> Ray {
+        let Some(lens) = &self.lens else { return self.ray(x, y) };
+        let [a, b] = in_disc(stream.pair(1)).map(|c| c * lens.radius);
+        let off = self.right * a + self.up * b;
+        let sideward = self.right * ((2.0 * x - self.px_width) * self.half_pixel);
+        let upward = self.up * ((self.px_height - 2.0 * y) * self.half_pixel);
+        let aside = sideward + upward;
+        let (start, to_sharp) = if self.is_parallel {
+            (self.origin + aside, self.ahead * lens.focus)
+        } else {
+            (self.origin, (self.ahead + aside) * lens.focus)
+        };
+        Ray::new(start + off, unit(to_sharp - off).unwrap_or(self.axis))
+    }
+
+    /// Whether there is a lens.
+    pub(super) const fn has_lens(&self) -> bool {
+        self.lens.is_some()
+    }
+
+    /// Rays without a lens for several places: a lane has the bits of [`ray`](Self::ray).
     #[inline(always)]
     pub(super) fn rays<L: Lanes>(
         &self,
@@ -83,9 +127,9 @@ impl View {
         (origin, units(lanes, &(ahead + (sideward + upward)), &axis))
     }
 
-    /// Where all rays start; `None` for parallel ones.
+    /// Where all rays start; `None` for parallel ones and for those of a lens.
     pub(super) fn eye(&self) -> Option<Point> {
-        (!self.is_parallel).then_some(self.origin)
+        (!self.is_parallel && self.lens.is_none()).then_some(self.origin)
     }
 
     /// The direction of the middle of the picture, of length 1.

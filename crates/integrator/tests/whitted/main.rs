@@ -5,6 +5,7 @@
 //! pictures have one pixel, so that what is computed is one line of formula.
 
 mod absorption;
+mod balls;
 mod camera;
 mod closed;
 mod contact;
@@ -12,11 +13,13 @@ mod everything;
 mod exposure;
 mod glass;
 mod help;
+mod lens;
 mod light;
 mod mirrors;
 mod overlaps;
 mod paths;
 mod rooms;
+mod samples;
 mod shadows;
 mod sheets;
 mod smooth;

@@ -66,6 +66,8 @@ pub enum Goal {
     Point(Point),
     /// Each in that direction, without end.
     Direction(Vector),
+    /// Each to a point of the ball around that point with that radius.
+    Ball(Point, f64),
 }
 
 /// Generous for all roundings of products of a few terms, relative to the largest.
@@ -152,7 +154,9 @@ impl Listed {
     /// The hull of the ball and the goal is within the ball's radius of the line
     /// from its centre. A plane with ball and goal on the same side is not between them; nor
     /// is the one that rays leave, if the goal is on that side by more than
-    /// roundings: then they go away from it.
+    /// roundings: then they go away from it. Where the goal is a ball, the hull of both is
+    /// the union of balls around the points between the centres, whose radius changes
+    /// evenly.
     pub(crate) fn between(
         &self,
         centre: &Point,
@@ -164,14 +168,22 @@ impl Listed {
         let size = bound(&centre.coords) + radius;
         for (k, (_, ball)) in self.balls.iter().enumerate() {
             let from_centre = ball.centre - centre;
+            if let Goal::Ball(point, goal_radius) = goal {
+                let reach = (ball.radius, radius, *goal_radius);
+                let slack = 1e-9 * (size + bound(&ball.centre.coords) + bound(&point.coords));
+                let is_off =
+                    gap(&from_centre, &(point - centre), reach) > slack + 1e-9 * goal_radius;
+                among.balls &= !(u64::from(is_off) << k);
+                continue;
+            }
             let way = match goal {
-                Goal::Point(point) => point - centre,
+                Goal::Point(point) | Goal::Ball(point, _) => point - centre,
                 Goal::Direction(direction) => *direction,
             };
             let length_squared = way.norm_squared();
             let along = from_centre.dot(&way) / length_squared;
             let along = match goal {
-                Goal::Point(_) => along.clamp(0.0, 1.0),
+                Goal::Point(_) | Goal::Ball(..) => along.clamp(0.0, 1.0),
                 Goal::Direction(_) => along.max(0.0),
             };
             let off = (from_centre - way * along).norm_squared();
@@ -189,6 +201,10 @@ impl Listed {
                     (normal.dot(&(point - plane.origin)), SLACK * (size + bound(&point.coords)))
                 }
                 Goal::Direction(direction) => (normal.dot(direction), SLACK),
+                Goal::Ball(point, goal_radius) => {
+                    let slack = SLACK * (size + bound(&point.coords) + goal_radius);
+                    (normal.dot(&(point - plane.origin)), goal_radius + slack)
+                }
             };
             let near = SLACK * size + radius;
             let above = (height > near) & (of_goal > slack);
@@ -202,6 +218,28 @@ impl Listed {
     }
 }
 
+/// How far a ball at `at` is from the hull of one at the origin and one at `way`, at
+/// least; the radii are in that order.
+///
+/// Along the way the distance from the ball's centre less the hull's radius there is convex. Its
+/// least value is where the angle to the centre has the tangent that the hull's side has, or at
+/// an end.
+fn gap(at: &Vector, way: &Vector, (radius, here, there): (f64, f64, f64)) -> f64 {
+    let length = way.norm();
+    let along = at.dot(way) / length;
+    let across = (at - way * (along / length)).norm();
+    let slope = (there - here) / length;
+    let least = along + across * slope / ((1.0 - slope) * (1.0 + slope)).sqrt();
+    let ends = [0.0, length];
+    // Where one ball is in the other, least is not a number.
+    let places = if least > 0.0 && least < length { [least; 2] } else { ends };
+    let gaps = places.map(|place| {
+        let off = (across * across + (along - place) * (along - place)).sqrt();
+        off - (here + slope * place)
+    });
+    gaps[0].min(gaps[1]) - radius
+}
+
 /// At least the length, and less than twice that.
 #[inline(always)]
 fn bound(v: &Vector) -> f64 {
@@ -210,8 +248,8 @@ fn bound(v: &Vector) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use crate::lanes::{Lanes, One};
-    use crate::{Candidates, Prepared, Rays};
+    use crate::lanes::{Lanes, Mask, One};
+    use crate::{Candidates, Goal, Prepared, Rays, Which};
     use fastrand::Rng;
     use lancer_math::{Point, Ray, Vector, unit};
     use lancer_scene::{Camera, Colour, Scene, Shape, Surface};
@@ -304,5 +342,50 @@ mod tests {
             }
         }
         assert!(left_out > 1000, "{left_out}");
+    }
+
+    /// Rays from a ball of points to a ball, among planes and balls, some of which touch
+    /// what is between the two.
+    #[test]
+    fn what_is_left_out_hides_nothing_of_a_ball() {
+        let mut rng = Rng::with_seed(32);
+        let (mut left_out, mut hidden) = (0, 0);
+        for case in 0..4000 {
+            let mut vector = || {
+                let mut number = || 2.0 * rng.f64() - 1.0;
+                Vector::new(number(), number(), number())
+            };
+            let mut scene =
+                Scene::builder().camera(Camera::new([0.0; 3], [1.0, 0.0, 0.0], 1.0, [1, 1]));
+            let surface = || Surface::new(Colour::RED);
+            let centre = Point::from(vector());
+            let goal = centre + vector() * [0.3, 3.0, 100.0][case % 3];
+            let radius = [0.0, 1e-6, 0.1, 1.0][case / 3 % 4];
+            let goal_radius = [1e-6, 0.05, 0.5, 2.0][case / 12 % 4];
+            for _ in 0..4 {
+                let normal = vector() + Vector::new(0.0, 0.0, 1e-9);
+                let at = goal.coords + vector() * 2.0 * goal_radius;
+                scene = scene.shape(Shape::plane(at.into(), normal.into(), surface()));
+                let way = goal - centre;
+                let at = centre + way * vector().x.abs() + way.cross(&vector());
+                scene = scene.shape(Shape::sphere(at.into(), 0.3 * way.norm(), surface()));
+            }
+            let prepared = Prepared::new(&scene.build().expect("valid"));
+            let to = Goal::Ball(goal, goal_radius);
+            let among = prepared.candidates_between(&centre, radius, &to, None);
+            left_out += usize::from(among != prepared.listed().all());
+            for _ in 0..30 {
+                let mut on = || unit(vector()).expect("not zero");
+                let (from, end) = (centre + on() * radius, goal + on() * goal_radius);
+                let rays = Rays::splat(One, &Ray::new(from, end - from));
+                let is_hidden = |among: &Candidates| {
+                    let (asked, which) = (One.mask(1), Which::Opaque);
+                    prepared.any_in_lanes(&rays, 1.0, asked, which, (among, None)).any()
+                };
+                assert_eq!(is_hidden(&among), is_hidden(&Candidates::ALL), "case {case}");
+                hidden += usize::from(is_hidden(&among));
+            }
+        }
+        assert!(left_out > 2000 && hidden > 10_000, "{left_out} {hidden}");
     }
 }

@@ -9,10 +9,20 @@ const FALLOFF: Attribute = optional(
      The engines `classic` and `direct` take it not to weaken whatever is said",
 );
 
+const RADIUS: Attribute = optional(
+    "radius",
+    "number of at least 0",
+    "the radius of a ball around the point, from whose whole surface the light comes, so that \
+     shadows have soft edges. A surface that sees the whole ball is as bright as it would be by a \
+     lamp without a radius; one that sees a part, as that part of the ball makes it. To what is \
+     inside, the ball shines from all sides, with `falloff=\"none\"` with its full brightness. 0, \
+     where it is missing: the point alone",
+);
+
 /// `<lamp>`
 pub static LAMP: Element = Element {
     name: "lamp",
-    summary: "A light that shines from a point in all directions; it cannot be seen itself.",
+    summary: "A light that shines from a point, or a ball, in all directions; it cannot be seen itself.",
     attributes: &[
         required(
             "brightness",
@@ -20,9 +30,11 @@ pub static LAMP: Element = Element {
             "how strong the light is: the radiance that a white matte surface shows when it \
              faces the lamp squarely from distance 1",
         ),
+        RADIUS,
         FALLOFF,
     ],
     children: &[once(&POINT, "where the lamp is")],
+    slips: &[("size", Slip::Instead("give the radius of its ball as `radius`"))],
     ..Element::BARE
 };
 
@@ -37,15 +49,19 @@ pub static SUN: Element = Element {
          the sun squarely",
     )],
     children: &[once(&POINT, "the direction in which the light travels; other than zero")],
-    slips: &[("falloff", Slip::Instead("leave it out: the light of a sun does not weaken"))],
+    slips: &[
+        ("falloff", Slip::Instead("leave it out: the light of a sun does not weaken")),
+        ("radius", Slip::Instead("leave it out: a sun is a point infinitely far away")),
+    ],
     ..Element::BARE
 };
 
 /// `<spot>`
 pub static SPOT: Element = Element {
     name: "spot",
-    summary: "A light that shines from a point into a cone; it cannot be seen itself. Between the \
-              two angles its light fades.",
+    summary: "A light that shines from a point, or a ball, into a cone; it cannot be seen itself. \
+              Between the two angles, which are those to the direction from its point, its light \
+              fades.",
     attributes: &[
         required(
             "brightness",
@@ -63,10 +79,12 @@ pub static SPOT: Element = Element {
             "angle from 0 to 180 degrees",
             "the angle from its axis from which on there is none",
         ),
+        RADIUS,
         FALLOFF,
     ],
     children: &[once(&POINT, "where the lamp is"), once(&AXIS, "where the middle of it shines")],
     slips: &[
+        ("size", Slip::Instead("give the radius of its ball as `radius`")),
         ("angle", Slip::Instead("give `inner` and `outer`, in degrees from the axis")),
         ("target", Slip::Instead("give the direction of its light as <axis>")),
     ],

@@ -53,6 +53,21 @@ pub static CAMERA: Element = Element {
              that the picture turns counterclockwise. 0 where it is missing",
         ),
         optional(
+            "aperture",
+            "number of at least 0",
+            "the diameter of a thin lens around `origin`, as openings are measured, in the lengths \
+             of the scene; 0, where it is missing: a pinhole, to which everything is sharp. What is \
+             z away along the axis, and d away from the plane in focus, is a disc in that plane, \
+             `aperture * d / z` wide. In `orthographic` every ray has such a lens around its start, \
+             and the disc is `aperture * d / focus` wide",
+        ),
+        optional(
+            "focus",
+            "number above 0",
+            "how far from `origin`, along the axis, the plane is that is seen sharply, with an \
+             `aperture`; the distance of `target` where it is missing",
+        ),
+        optional(
             "exposure",
             "`auto` or a number of stops from -1000 to 1000",
             "what linear light is multiplied by before it is shown: 2 to so many stops; `auto`, \

@@ -15,6 +15,7 @@ pub(super) fn camera(reader: &Reader<'_, '_>, options: &Options, out: Out<'_>) -
     let target = position(reader, &schema::TARGET, out);
     let up = direction(reader, &schema::UP, out);
     let roll = reader.number("roll", Degrees::new, out);
+    let (aperture, focus) = lens(reader, out);
     let exposure = exposure(reader, out);
     let (px_width, px_height) = (px_width?, px_height?);
     let pixels = u64::from(px_width.get()) * u64::from(px_height.get());
@@ -34,6 +35,7 @@ pub(super) fn camera(reader: &Reader<'_, '_>, options: &Options, out: Out<'_>) -
         Ok(mut camera) => {
             camera.up = up.unwrap_or(Direction::Z);
             camera.roll = roll.unwrap_or_default();
+            (camera.aperture, camera.focus) = (aperture, focus);
             camera.exposure = exposure.unwrap_or_default();
             Some(camera)
         }
@@ -78,6 +80,24 @@ fn projection(reader: &Reader<'_, '_>, out: Out<'_>) -> Option<Projection> {
     }
     let width = reader.number("width", Length::new, out)?;
     Some(if parallel { Projection::Orthographic(width) } else { Projection::Pinhole(width) })
+}
+
+/// The aperture and the distance in focus.
+fn lens(reader: &Reader<'_, '_>, out: Out<'_>) -> (Option<Length>, Option<Length>) {
+    if reader.has("focus") && !reader.has("aperture") {
+        out.push(
+            Diagnostic::error(
+                reader.name_span_of("focus"),
+                "`focus` of <camera> means nothing without `aperture`",
+                "expected an `aperture`, too",
+            )
+            .help(
+                "to a pinhole all is sharp; give the diameter of a lens as `aperture`".to_owned(),
+            ),
+        );
+    }
+    let aperture = reader.number("aperture", Length::or_none, out).flatten();
+    (aperture, reader.number("focus", Length::new, out))
 }
 
 fn exposure(reader: &Reader<'_, '_>, out: Out<'_>) -> Option<Exposure> {

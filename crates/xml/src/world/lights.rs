@@ -4,7 +4,7 @@ use super::{Out, direction, position, warn_empty};
 use crate::Diagnostic;
 use crate::element::Reader;
 use crate::schema::{self, Element};
-use lancer_scene::{Beam, Brightness, Degrees, Falloff, Light, Shadows};
+use lancer_scene::{Beam, Brightness, Degrees, Falloff, Length, Light, Shadows};
 
 pub(super) fn shadows(reader: &Reader<'_, '_>, out: Out<'_>) -> Option<Shadows> {
     let words = [("tinted", Shadows::Tinted), ("opaque", Shadows::Opaque)];
@@ -34,19 +34,21 @@ fn light(reader: &Reader<'_, '_>, element: &'static Element, out: Out<'_>) -> Op
     }
     let words = [("square", Falloff::Square), ("none", Falloff::None)];
     let falloff = reader.keyword("falloff", &words, out).unwrap_or_default();
+    let radius = reader.number("radius", Length::or_none, out).flatten();
     let point = position(reader, &schema::POINT, out);
     if std::ptr::eq(element, &schema::SPOT) {
         let axis = direction(reader, &schema::AXIS, out);
         let beam = beam(reader, out);
         Some(Light::Spot {
             point: point?,
+            radius,
             axis: axis?,
             beam: beam?,
             brightness: brightness?,
             falloff,
         })
     } else {
-        Some(Light::Lamp { point: point?, brightness: brightness?, falloff })
+        Some(Light::Lamp { point: point?, radius, brightness: brightness?, falloff })
     }
 }
 

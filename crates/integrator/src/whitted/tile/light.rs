@@ -4,25 +4,25 @@ use super::buffers::{Buffers, Hiding};
 use super::places::Places;
 use super::shade::Around;
 use super::{Batch, dot};
-use crate::whitted::lights::{From, Source};
+use crate::whitted::lights::{From, Source, dimension};
 use crate::whitted::media::Media;
-use crate::whitted::signature::{Signing, Spot};
+use crate::whitted::signature::{Signing, Spot, Way};
 use lancer_kernel::lanes::{Lanes, MOST, Mask, Real, Vectors, lanes_of};
 use lancer_kernel::{Candidates, Goal, Rays, Which};
 use lancer_math::Vector;
 use lancer_scene::Falloff;
 
 /// The points of a register.
-struct Lit<L: Lanes> {
+pub(super) struct Lit<L: Lanes> {
     /// The place of the first one in the group.
-    at: usize,
+    pub(super) at: usize,
     /// Those that light matters to.
-    matter: L::Mask,
-    point: Vectors<L::Real>,
-    facet: Vectors<L::Real>,
-    shading: Vectors<L::Real>,
+    pub(super) matter: L::Mask,
+    pub(super) point: Vectors<L::Real>,
+    pub(super) facet: Vectors<L::Real>,
+    pub(super) shading: Vectors<L::Real>,
     /// Where rays to what is above the facet start.
-    origin: Vectors<L::Real>,
+    pub(super) origin: Vectors<L::Real>,
 }
 
 impl<P: Places> Batch<'_, P> {
@@ -30,7 +30,13 @@ impl<P: Places> Batch<'_, P> {
     /// the radiance of a white surface is what each lane computes as
     /// [`Lights::gather`](crate::whitted::lights::Lights::gather) does.
     #[inline(always)]
-    pub(super) fn gather<L: Lanes>(&mut self, lanes: L, matte: f64, item: u32, around: &Around) {
+    pub(super) fn gather<L: Lanes>(
+        &mut self,
+        lanes: L,
+        matte: f64,
+        (item, way): (u32, Way),
+        around: &Around,
+    ) {
         let tracer = self.tracer;
         let sources = &tracer.lights.lights;
         // Opaque surfaces leave light its colour.
@@ -58,7 +64,7 @@ impl<P: Places> Batch<'_, P> {
             let mut light = Vectors::splat(lanes, &Vector::zeros());
             let mut marks = lanes.load(&sights.lit[at..]);
             for (index, source) in sources.iter().enumerate() {
-                self.shine(lanes, (source, index), &lit, is_grey, (&mut light, &mut marks));
+                self.shine(lanes, (source, index, way), &lit, is_grey, (&mut light, &mut marks));
             }
             if P::Signing::SIGNED {
                 marks.store(&mut self.buffers.sights.lit[at..]);
@@ -104,6 +110,7 @@ impl<P: Places> Batch<'_, P> {
             let goal = match &source.place {
                 From::Point(point) => Goal::Point(*point),
                 From::Direction(direction) => Goal::Direction(*direction),
+                From::Ball(centre, radius) => Goal::Ball(*centre, *radius),
             };
             let among = if culling.shadow_candidates {
                 prepared.candidates_between(centre, *radius, &goal, leaving)
@@ -122,19 +129,25 @@ impl<P: Places> Batch<'_, P> {
     fn shine<L: Lanes>(
         &mut self,
         lanes: L,
-        (source, index): (&Source, usize),
+        (source, index, met_on): (&Source, usize, Way),
         lit: &Lit<L>,
         is_grey: bool,
         (light, marks): (&mut Vectors<L::Real>, &mut L::Real),
     ) {
         let zero = lanes.splat(0.0);
-        let (way, squared, t_max) = match &source.place {
+        let (way, squared, lamp) = match &source.place {
             From::Direction(direction) => {
-                (Vectors::splat(lanes, direction), lanes.splat(1.0), f64::INFINITY)
+                (Vectors::splat(lanes, direction), lanes.splat(1.0), None)
             }
             From::Point(lamp) => {
                 let way = Vectors::splat_point(lanes, lamp) - lit.point;
-                (way, dot(&way, &way), 1.0)
+                (way, dot(&way, &way), Some(lamp))
+            }
+            From::Ball(centre, radius) => {
+                let numbers = dimension(met_on, index);
+                let ball = (source, index, (centre, *radius));
+                let sums = (light, marks);
+                return self.shine_from_ball(lanes, ball, numbers, lit, is_grey, sums);
             }
         };
         let along = dot(&way, &lit.shading);
@@ -162,19 +175,34 @@ impl<P: Places> Batch<'_, P> {
         }
         let asked = asked & !strength.eq(zero);
         self.counts.shadow += u64::from(asked.bits().count_ones());
-        let Hiding { among, outside, is_clear } = &self.buffers.hiding[index];
-        if is_grey && *is_clear {
+        if is_grey && self.buffers.hiding[index].is_clear {
             light.x = asked.select(light.x + strength, light.x);
             *marks = asked.select(*marks + mark, *marks);
             return;
         }
-        let direction = match &source.place {
-            From::Direction(_) => way,
-            From::Point(lamp) => Vectors::splat_point(lanes, lamp) - lit.origin,
+        let (direction, t_max) = match lamp {
+            None => (way, f64::INFINITY),
+            Some(lamp) => (Vectors::splat_point(lanes, lamp) - lit.origin, 1.0),
         };
         let rays = Rays::new(lanes, lit.origin, direction);
+        let sums = (light, marks);
+        self.cast(lanes, (&rays, t_max, asked), (strength, mark), (lit.at, index), is_grey, sums);
+    }
+
+    /// Adds what arrives of light of a strength that comes along rays, against them, from `t_max`.
+    #[inline(always)]
+    pub(super) fn cast<L: Lanes>(
+        &mut self,
+        lanes: L,
+        (rays, t_max, asked): (&Rays<L>, f64, L::Mask),
+        (strength, mark): (L::Real, L::Real),
+        (at, index): (usize, usize),
+        is_grey: bool,
+        (light, marks): (&mut Vectors<L::Real>, &mut L::Real),
+    ) {
+        let Hiding { among, outside, .. } = &self.buffers.hiding[index];
         let prepared = &self.tracer.prepared;
-        let hidden = prepared.any_in_lanes(&rays, t_max, asked, Which::Opaque, (among, *outside));
+        let hidden = prepared.any_in_lanes(rays, t_max, asked, Which::Opaque, (among, *outside));
         let arrives = asked & !hidden;
         if is_grey {
             light.x = arrives.select(light.x + strength, light.x);
@@ -184,13 +212,13 @@ impl<P: Places> Batch<'_, P> {
         let mut more = [[0.0; MOST]; 3];
         let mut some = 0;
         for k in lanes_of(arrives.bits()) {
-            let pixel = self.places.pixel(self.buffers.group.pixel[lit.at + k]);
+            let pixel = self.places.pixel(self.buffers.group.pixel[at + k]);
             let (ray, media, mut spot) = (rays.lane(k), Media::default(), Spot::default());
             let (on, to) = ((&ray, t_max), (&mut spot, &mut *self.counts));
             let through = self.tracer.lights.through::<P::Signing>(prepared, on, &media, to, pixel);
             if P::Signing::SIGNED && through != [0.0; 3] {
                 some |= 1 << k;
-                let piece = &mut self.buffers.sights.piece[lit.at + k];
+                let piece = &mut self.buffers.sights.piece[at + k];
                 *piece = piece.wrapping_add(spot.piece);
             }
             for (more, through) in more.iter_mut().zip(through) {

@@ -7,6 +7,7 @@
 //! when the pixel is followed alone, and the same bits; and likewise a sample. A ray that meets a transparent
 //! surface is followed alone from there on.
 
+mod ball;
 mod buffers;
 mod light;
 mod places;
@@ -100,7 +101,13 @@ impl<P: Places> Batch<'_, P> {
         let view = &self.tracer.view;
         let Buffers { rays, radiance, signatures, .. } = &mut *self.buffers;
         rays.count = self.places.count();
-        let [left, top, right, bottom] = self.places.rays(lanes, view, rays);
+        let has_lens = view.has_lens();
+        let [left, top, right, bottom] = if has_lens {
+            self.places.through_lens(view, rays);
+            [0.0; 4]
+        } else {
+            self.places.rays(lanes, view, rays)
+        };
         for k in 0..rays.count {
             rays.pixel[k] = k as u16;
         }
@@ -111,6 +118,9 @@ impl<P: Places> Batch<'_, P> {
         }
         rays.pad();
 
+        if has_lens {
+            return self.ahead(lanes);
+        }
         let Some(eye) = view.eye() else { return Candidates::ALL };
         let corners = [(left, top), (right, top), (left, bottom), (right, bottom)]
             .map(|(x, y)| view.ray(x, y).direction);
@@ -126,7 +136,7 @@ impl<P: Places> Batch<'_, P> {
         self.tracer.kernel.culling.tile_candidates
     }
 
-    /// What mirrored rays may meet.
+    /// What rays of a lens and mirrored ones may meet.
     #[inline(always)]
     fn ahead<L: Lanes>(&self, lanes: L) -> Candidates {
         let rays = &self.buffers.rays;
@@ -217,7 +227,7 @@ impl<P: Places> Batch<'_, P> {
             let (sum, signed) = self.tracer.go_on::<P::Signing>(
                 (group.ray(k), group.share(k), depth, kind),
                 (way, (sum, *signature)),
-                self.places.pixel(pixel),
+                self.places.task(pixel),
                 self.counts,
             );
             *signature = signed;

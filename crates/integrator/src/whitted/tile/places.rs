@@ -3,6 +3,7 @@
 use super::buffers::Bundle;
 use crate::enclose::{fold, max};
 use crate::whitted::signature::{Signed, Signing, Unsigned};
+use crate::whitted::tracer::Task;
 use crate::whitted::view::View;
 use crate::{RayCounts, Rgb, Sample, Seen};
 use lancer_film::Window;
@@ -17,9 +18,28 @@ pub(super) trait Places {
     /// Column and row of the pixel that a place is for.
     fn pixel(&self, place: u16) -> (u32, u32);
 
-    /// Their rays, and the rectangle of the picture that they are in: its left, top, right and
+    /// What the ray of a place is followed for.
+    fn task(&self, place: u16) -> Task;
+
+    /// Where it is in the picture.
+    fn at(&self, place: u16) -> [f64; 2];
+
+    /// Their rays where there is no lens, and the rectangle of the picture that they are in: its left, top, right and
     /// bottom.
     fn rays<L: Lanes>(&self, lanes: L, view: &View, rays: &mut Bundle) -> [f64; 4];
+
+    /// Their rays through a lens.
+    #[inline(never)]
+    fn through_lens(&self, view: &View, rays: &mut Bundle) {
+        for k in 0..self.count() {
+            let place = k as u16;
+            let ray = view.ray_of_sample(self.at(place), self.task(place).stream);
+            for axis in 0..3 {
+                rays.origin.0[axis][k] = ray.origin[axis];
+                rays.direction.0[axis][k] = ray.direction[axis];
+            }
+        }
+    }
 
     /// Keeps what is seen at each, with its signature if that is asked for.
     fn keep(&mut self, seen: impl Iterator<Item = (Rgb, u64)>, counts: &mut RayCounts);
@@ -42,6 +62,15 @@ impl Places for Pixels<'_> {
     fn pixel(&self, place: u16) -> (u32, u32) {
         let place = u32::from(place);
         (self.window.x + place % self.window.width, self.window.y + place / self.window.width)
+    }
+
+    fn task(&self, place: u16) -> Task {
+        Task::of_pixel(self.pixel(place))
+    }
+
+    fn at(&self, place: u16) -> [f64; 2] {
+        let (x, y) = self.pixel(place);
+        [f64::from(x) + 0.5, f64::from(y) + 0.5]
     }
 
     #[inline(always)]
@@ -98,6 +127,14 @@ impl Places for Samples<'_> {
 
     fn pixel(&self, place: u16) -> (u32, u32) {
         self.samples[usize::from(place)].pixel
+    }
+
+    fn task(&self, place: u16) -> Task {
+        Task::of_sample(&self.samples[usize::from(place)])
+    }
+
+    fn at(&self, place: u16) -> [f64; 2] {
+        self.samples[usize::from(place)].place
     }
 
     #[inline(always)]

@@ -51,7 +51,7 @@ impl<P: Places> Batch<'_, P> {
             }
         }
         if gloss < 1.0 || !self.tracer.kernel.culling.full_mirrors {
-            self.gather(lanes, 1.0 - gloss, item, &around);
+            self.gather(lanes, 1.0 - gloss, (item, way), &around);
         }
         if P::Signing::SIGNED {
             self.sign(way.meets(Some(item)));
