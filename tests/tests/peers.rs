@@ -48,7 +48,7 @@ fn ours(scene: &mut Scene) -> Vec<[f32; 3]> {
     let engine = Whitted::with_cutoff(1e-5).expect("in range");
     let settings = RenderSettings { for_display: true, ..RenderSettings::default() };
     let film = render(scene, &engine, &settings).unwrap_or_else(|e| panic!("{e}")).film;
-    let stops = film.exposure().expect("it is exposed");
+    let stops = film.stops().expect("it is exposed");
     scene.camera.exposure = Exposure::Stops(Stops::new(stops).expect("in range"));
     let factor = libm::exp2(stops) as f32;
     film.pixels().iter().map(|pixel| pixel.map(|c| (c * factor).clamp(0.0, 1.0))).collect()

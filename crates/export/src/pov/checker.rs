@@ -139,7 +139,7 @@ pub(super) fn cells(geometry: &Geometry, surface: &Surface) -> Vec<Cells> {
 
 /// Which of the three cells of a mesh a triangle has: by the axis that its normal has
 /// most of.
-pub(super) fn axis(mesh: &Mesh, triangle: usize) -> usize {
+pub(crate) fn axis(mesh: &Mesh, triangle: usize) -> usize {
     let [a, b, c] = mesh.corners(triangle);
     let scale = (b - a).amax().max((c - a).amax());
     ((b - a) / scale).cross(&((c - a) / scale)).iamax()

@@ -10,7 +10,7 @@ use std::fmt::Write;
 
 /// The corners of each face of a tetrahedron, counterclockwise from outside; a face's
 /// checker begins at the first.
-pub(super) const FACES: [[usize; 3]; 4] = [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]];
+pub(crate) const FACES: [[usize; 3]; 4] = [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]];
 
 /// A shape with its textures, up to what stands before its closing brace. `None` for one of the
 /// user's own.
