@@ -25,7 +25,8 @@ fn a_scene_is_written_by_its_extension_or_format() {
 #[test]
 fn standard_input_and_output_carry_scenes() {
     let folder = Folder::new();
-    let run = folder.run_with(&["export", "-", "-o", "-", "--format", "pov", "-q"], SCENE.as_bytes());
+    let run =
+        folder.run_with(&["export", "-", "-o", "-", "--format", "pov", "-q"], SCENE.as_bytes());
     assert_eq!((run.code(), run.err()), (Some(0), String::new()));
     folder.run(&["export", "scene.xml", "-o", "a.pov", "-q"]).silent();
     assert_eq!(run.out().as_bytes(), bytes(&folder.path("a.pov")));

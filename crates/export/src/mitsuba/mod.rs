@@ -136,7 +136,10 @@ fn matrix(axes: &[Vector; 3], origin: &Point) -> String {
         numbers.push(origin[row]);
     }
     numbers.extend([0.0, 0.0, 0.0, 1.0]);
-    format!("<transform name=\"to_world\"><matrix value=\"{}\"/></transform>", joined(&numbers, " "))
+    format!(
+        "<transform name=\"to_world\"><matrix value=\"{}\"/></transform>",
+        joined(&numbers, " ")
+    )
 }
 
 fn rgb(name: &str, colour: [f64; 3], factor: f64) -> String {
@@ -163,7 +166,8 @@ impl Writer<'_> {
         for placed in groups {
             let placement = placed.placement.then(outer);
             let group = &placed.group;
-            let of = group.name().map_or_else(|| " of a group".to_owned(), |n| format!(" of `{n}`"));
+            let of =
+                group.name().map_or_else(|| " of a group".to_owned(), |n| format!(" of `{n}`"));
             self.shapes(group.shapes(), &placement, &of);
             self.groups(group.groups(), &placement);
         }

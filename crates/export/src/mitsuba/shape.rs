@@ -278,8 +278,8 @@ fn cube(cuboid: &Cuboid, checker: &Checker) -> Triangles {
                 let uv = [at[first] / pair, at[second] / pair];
                 Corner { point: cuboid.min() + at, normal: Vector::zeros(), uv }
             };
-            let [a, b, c, d] =
-                [(false, false), (true, false), (true, true), (false, true)].map(|(u, v)| corner(u, v));
+            let [a, b, c, d] = [(false, false), (true, false), (true, true), (false, true)]
+                .map(|(u, v)| corner(u, v));
             let [a, b, c, d] = [a, b, c, d].map(|corner| mesh.add(corner));
             // Counterclockwise from outside.
             let faces = [[a, b, c], [a, c, d]];
