@@ -36,11 +36,13 @@ mod exposure;
 mod film;
 mod grid;
 mod layers;
+mod quality;
 mod strips;
 mod window;
 
 pub use exposure::{LightMeter, MOST_STOPS, exposure_factor};
 pub use film::{Display, Film, FilmError};
 pub use layers::{LayerKind, LayerPixel, Layers};
+pub use quality::{PixelQuality, Quality};
 pub use strips::Strip;
 pub use window::{Size, Window};

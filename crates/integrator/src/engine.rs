@@ -1,4 +1,4 @@
-use crate::{Classic, Direct, RayCounts, TILE_SIDE, Whitted};
+use crate::{Classic, Direct, RayCounts, Sampler, TILE_SIDE, Whitted};
 use lancer_film::{Display, LayerPixel, Window};
 use lancer_kernel::KernelSettings;
 use lancer_scene::Scene;
@@ -56,6 +56,11 @@ pub trait Tracer: Sync {
     /// does not say.
     fn first_hit(&self, x: u32, y: u32) -> Option<LayerPixel> {
         let _ = (x, y);
+        None
+    }
+
+    /// Itself, where it sees any place of the picture and not only pixels' centres.
+    fn sampler(&self) -> Option<&dyn Sampler> {
         None
     }
 

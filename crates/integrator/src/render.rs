@@ -1,11 +1,16 @@
-use crate::{Engine, RayCounts, Rgb, Tracer};
-use lancer_film::{Display, Film, FilmError, LayerPixel, Layers, LightMeter, Size, Strip, Window};
+use crate::sampling::{Job as SamplingJob, sample};
+use crate::{Accuracy, Engine, RayCounts, Rgb, Sampling, Tracer};
+use lancer_film::{
+    Display, Film, FilmError, LayerPixel, Layers, LightMeter, Quality, Size, Strip, Window,
+    exposure_factor,
+};
 use lancer_kernel::KernelSettings;
 use lancer_scene::{Exposure, Scene};
 use std::num::NonZeroUsize;
 use std::ops::AddAssign;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
 
 /// The side of the square tiles that a frame is cut into, in pixels.
 pub const TILE_SIDE: u32 = 16;
@@ -23,19 +28,23 @@ pub struct RenderSettings<'a> {
     pub exposure: Option<Exposure>,
     /// Whether to find out also what each pixel's ray meets first.
     pub layers: bool,
+    /// How many samples each pixel gets; one at its centre if that is not said, and nothing is
+    /// found out about its error.
+    pub sampling: Option<Sampling>,
     /// How rays are followed.
     pub kernel: KernelSettings,
     /// How many threads to start for it; by default those of the rayon pool that it
     /// is called in, one for each core where nobody has made another.
     pub threads: Option<NonZeroUsize>,
-    /// Called now and then, from any thread, as work goes on.
+    /// Called now and then, from any thread, as work goes on: with pixels, or with samples
+    /// where pixels have many; then how many there will be is a guess that becomes better.
     pub progress: Option<&'a Progress<'a>>,
     /// Once this is true the work stops and [`RenderError::Interrupted`] is
-    /// returned.
+    /// returned; where pixels have several samples, instead the picture as it is then.
     pub cancel: Option<&'a AtomicBool>,
 }
 
-/// Is told how many pixels are done and how many there are to do. Calls come
+/// Is told how much is done and how much there is to do. Calls come
 /// from several threads and may overtake one another.
 pub type Progress<'a> = dyn Fn(u64, u64) + Sync + 'a;
 
@@ -47,6 +56,10 @@ pub struct Rendered {
     pub film: Film,
     /// What the rays of the pixels meet first, where that was asked for.
     pub layers: Option<Layers>,
+    /// The error of the picture, and why there are no more samples, where [`Sampling`] was asked for.
+    pub accuracy: Option<Accuracy>,
+    /// That of its pixels, likewise.
+    pub quality: Option<Quality>,
     /// The rays that were followed.
     pub counts: RayCounts,
     /// How many threads worked on it.
@@ -81,6 +94,12 @@ pub enum RenderError {
         /// The engine's name.
         engine: String,
     },
+    /// Pixels are to have several samples, but the engine has only one, at their centres.
+    #[error("the engine {engine} has one sample in each pixel")]
+    NoSamples {
+        /// The engine's name.
+        engine: String,
+    },
     /// The work was cancelled.
     #[error("interrupted")]
     Interrupted,
@@ -106,7 +125,7 @@ pub fn render(
     let film = Film::new(frame, window, engine.display())?;
     let layers = settings.layers.then(|| Layers::new(frame, window)).transpose()?;
     match settings.threads {
-        None => fill(scene, engine, settings, film, layers),
+        None => draw(scene, engine, settings, film, layers),
         Some(threads) => {
             // Others would have nothing to do.
             let most = usize::try_from(frame.window().strip_count(TILE_SIDE, TILE_SIDE));
@@ -115,22 +134,77 @@ pub fn render(
                 .num_threads(threads)
                 .build()
                 .map_err(|reason| RenderError::Threads { threads, reason })?;
-            pool.install(|| fill(scene, engine, settings, film, layers))
+            pool.install(|| draw(scene, engine, settings, film, layers))
         }
     }
 }
 
 /// Renders to a film, and to layers where there are any, on the threads of the pool
 /// that it is called in.
-fn fill(
+fn draw(
     scene: &Scene,
     engine: &dyn Engine,
+    settings: &RenderSettings<'_>,
+    film: Film,
+    layers: Option<Layers>,
+) -> Result<Rendered, RenderError> {
+    let begun = Instant::now();
+    let showing = Showing::new(scene, engine, settings);
+    let tracer = engine.prepare(scene, &settings.kernel);
+    let Some(sampling) = &settings.sampling else {
+        return fill((engine, &*tracer), showing, settings, film, layers);
+    };
+    let sampler = tracer.sampler();
+    let sampler =
+        sampler.ok_or_else(|| RenderError::NoSamples { engine: engine.name().to_owned() })?;
+    // The exposure is fixed before: by one sample in each pixel of the frame, the same
+    // whatever the seed is.
+    let (frame, window) = (film.frame(), film.window());
+    let mut rendered = if showing.looks_at_frame() || layers.is_some() {
+        let settings = RenderSettings { for_display: true, ..*settings };
+        fill((engine, &*tracer), showing, &settings, film, layers)?
+    } else {
+        let threads = rayon::current_num_threads();
+        let counts = RayCounts::default();
+        Rendered { film, layers, accuracy: None, quality: None, counts, threads }
+    };
+    if let Showing::Exposed(stops) = showing {
+        rendered.film.set_stops(stops);
+    }
+    let sampled = sample(&SamplingJob {
+        sampler,
+        window,
+        sampling,
+        exposure: rendered.film.stops().map_or(1.0, exposure_factor),
+        lanes: settings.kernel.lanes,
+        begun,
+        cancel: settings.cancel,
+        progress: settings.progress,
+    });
+    let mut quality = Quality::new(frame, window)?;
+    for (tile, values, known) in sampled.tiles() {
+        rendered.film.put(tile, &values);
+        quality.put(tile, &known);
+    }
+    if window == frame.window() {
+        let peak = Film::peak(rendered.film.pixels());
+        rendered.film.set_frame_peak(peak);
+    }
+    rendered.counts += sampled.counts;
+    rendered.accuracy = Some(sampled.accuracy);
+    rendered.quality = Some(quality);
+    Ok(rendered)
+}
+
+/// The same with a sample at the centre of each pixel.
+fn fill(
+    (engine, tracer): (&dyn Engine, &dyn Tracer),
+    showing: Showing,
     settings: &RenderSettings<'_>,
     mut film: Film,
     mut layers: Option<Layers>,
 ) -> Result<Rendered, RenderError> {
     let (frame, window) = (film.frame(), film.window());
-    let showing = Showing::new(scene, engine, settings);
     let to_do =
         if settings.for_display && showing.looks_at_frame() { frame.window() } else { window };
     let is_whole = to_do == frame.window();
@@ -138,10 +212,9 @@ fn fill(
     let tiles = to_do.strip_count(TILE_SIDE, TILE_SIDE);
     let width = strip_width(tiles, threads);
 
-    let tracer = engine.prepare(scene, &settings.kernel);
     let work = Work {
         engine: engine.name(),
-        tracer: &*tracer,
+        tracer,
         settings,
         metered: (is_whole && showing == Showing::AutoExposed).then(|| frame.window().pixels()),
         pixels: to_do.pixels(),
@@ -175,7 +248,8 @@ fn fill(
         film.set_frame_peak(all.peak);
     }
     let threads = threads.min(usize::try_from(tiles).unwrap_or(usize::MAX));
-    Ok(Rendered { film, layers, counts: all.counts, threads })
+    let counts = all.counts;
+    Ok(Rendered { film, layers, accuracy: None, quality: None, counts, threads })
 }
 
 /// How wide the strips are that threads take to work on. Neighbouring tiles

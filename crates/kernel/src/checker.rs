@@ -6,7 +6,7 @@
 //! as long as its points are known to a millionth of a cell.
 
 use crate::lanes::{Lanes, Mask, Real, Vectors};
-use crate::primitive::Cell;
+use crate::primitive::{Cell, Square};
 
 const LARGEST: f64 = 4_503_599_627_370_496.0; // 2^52
 
@@ -43,33 +43,34 @@ pub(crate) fn slacks<L: Lanes>(lanes: L, error: L::Real, length: f64) -> L::Real
     slack.lt(most).select(slack, most)
 }
 
-/// Whether the cell of x is odd: floor(x), or one more where x is no farther than
-/// `slack` below that. `None` where x is so large that doubles have no fractions, or not
-/// a number.
+/// The cell of x: floor(x), or one more where x is no farther than `slack` below that.
+/// `None` where x is so large that doubles have no fractions, or not a number.
 #[inline]
-fn odd(x: f64, slack: f64) -> Option<bool> {
+fn step(x: f64, slack: f64) -> Option<f64> {
     let below = libm::floor(x);
     let above = below + 1.0;
-    let cell = if above - x <= slack { above } else { below };
-    // The remainder is exact.
-    (x.abs() <= LARGEST).then(|| cell % 2.0 != 0.0)
+    (x.abs() <= LARGEST).then_some(if above - x <= slack { above } else { below })
 }
 
 /// The cell at two coordinates, each in cells, with what is how far below a border on it.
 #[inline]
-pub(crate) fn cell([i, j]: [f64; 2], [along_i, along_j]: [f64; 2]) -> Cell {
-    match (odd(i, along_i), odd(j, along_j)) {
-        (Some(i), Some(j)) if i == j => Cell::First,
-        (Some(_), Some(_)) => Cell::Second,
-        _ => Cell::Mixed,
-    }
+pub(crate) fn square([i, j]: [f64; 2], [along_i, along_j]: [f64; 2]) -> Square {
+    let (Some(i), Some(j)) = (step(i, along_i), step(j, along_j)) else {
+        return Square { cell: Cell::Mixed, index: [0.0; 2] };
+    };
+    // The remainders are exact.
+    let [odd_i, odd_j] = [i, j].map(|index| index % 2.0 != 0.0);
+    let cell = if odd_i == odd_j { Cell::First } else { Cell::Second };
+    Square { cell, index: [i, j] }
 }
 
-/// Which of the two colours of a checker points show.
+/// The cells of a checker that points are in.
 #[derive(Debug, Clone, Copy)]
-pub struct LaneCells<M> {
-    /// Where it is the checker's own.
+pub struct LaneCells<M: Mask> {
+    /// Where the colour is the checker's own.
     pub second: M,
+    /// As [`SurfacePoint::cell`](crate::SurfacePoint::cell).
+    pub index: [M::Real; 2],
     /// Where that is certain; one by one it must be found out elsewhere.
     pub certain: M,
 }
@@ -85,8 +86,9 @@ pub(crate) fn cells<L: Lanes>(
 ) -> LaneCells<L::Mask> {
     let largest = lanes.splat(LARGEST);
     let certain = i.abs().le(largest) & j.abs().le(largest);
-    let [i, j] = [odd_lanes(i, slack), odd_lanes(j, slack)];
-    LaneCells { second: (i & !j) | (j & !i), certain }
+    let index = [steps(i, slack), steps(j, slack)];
+    let [i, j] = [odd(index[0]), odd(index[1])];
+    LaneCells { second: (i & !j) | (j & !i), index, certain }
 }
 
 /// The cells of the meridians and parallels of a ball at unit normals: certain
@@ -115,8 +117,8 @@ pub(crate) fn on_globe<L: Lanes>(
     };
     // Where a turn begins there is a border, whole number or not.
     let begun = longitude.gt(lanes.splat(NEAR)) & longitude.lt(lanes.splat(360.0 - NEAR));
-    let LaneCells { second, certain } = cells(lanes, i, j, lanes.splat(0.0));
-    LaneCells { second, certain: certain & inside(i) & inside(j) & begun }
+    let found = cells(lanes, i, j, lanes.splat(0.0));
+    LaneCells { certain: found.certain & inside(i) & inside(j) & begun, ..found }
 }
 
 /// About the angle of (x, y) in degrees from 0 to 360, to within 2e-8 radians; NaN at
@@ -148,12 +150,18 @@ fn about_turn<L: Lanes>(lanes: L, y: L::Real, x: L::Real) -> L::Real {
     y.lt(zero).select(-degrees + 360.0, degrees)
 }
 
-/// Whether the cell of x is odd.
+/// The same as [`step`] in lanes, where that is certain.
 #[inline(always)]
-fn odd_lanes<R: Real>(x: R, slack: R) -> R::Mask {
+fn steps<R: Real>(x: R, slack: R) -> R {
     let below = x.floor();
     let above = below + 1.0;
-    let half = (above - x).le(slack).select(above, below) * 0.5;
+    (above - x).le(slack).select(above, below)
+}
+
+/// Which of these whole numbers are odd.
+#[inline(always)]
+fn odd<R: Real>(index: R) -> R::Mask {
+    let half = index * 0.5;
     !half.floor().eq(half)
 }
 
@@ -191,9 +199,9 @@ mod tests {
             (f64::INFINITY, None),
             (f64::NAN, None),
         ] {
-            assert_eq!(odd(x, 0.0), expected, "{x}");
+            assert_eq!(step(x, 0.0).map(|index| index % 2.0 != 0.0), expected, "{x}");
         }
-        let cell = |i, j| cell([i, j], [0.0; 2]);
+        let cell = |i, j| square([i, j], [0.0; 2]).cell;
         assert_eq!(cell(0.5, 0.5), Cell::First);
         assert_eq!(cell(-0.5, 0.5), Cell::Second);
         assert_eq!(cell(-0.5, 1.5), Cell::First);
@@ -206,16 +214,16 @@ mod tests {
         assert_eq!(slack, 16.0 * f64::EPSILON);
         for border in [-3.0, -1.0, 0.0, 1.0, 2.0, 7.0] {
             let of = |x: f64| {
-                let lane = odd_lanes::<<One as Lanes>::Real>(One.splat(x), One.splat(slack));
-                assert_eq!(odd(x, slack), Some(lane.any()), "{x}");
-                lane.any()
+                let lane = steps::<<One as Lanes>::Real>(One.splat(x), One.splat(slack));
+                assert_eq!(step(x, slack), Some(lane), "{x}");
+                assert_eq!(odd(lane).any(), lane % 2.0 != 0.0);
+                lane
             };
-            let expected = border % 2.0 != 0.0;
             for off in [0.0, 1e-16, 1e-15, 3e-15] {
-                assert_eq!(of(border - off), expected, "{border} - {off}");
-                assert_eq!(of(border + off), expected, "{border} + {off}");
+                assert_eq!(of(border - off), border, "{border} - {off}");
+                assert_eq!(of(border + off), border, "{border} + {off}");
             }
-            assert_eq!(of(border - 1e-14), !expected, "{border}");
+            assert_eq!(of(border - 1e-14), border - 1.0, "{border}");
         }
         // Neither too long nor no number at all.
         assert_eq!(super::slack(1.0, 1.0), MOST_SLACK);
@@ -240,10 +248,11 @@ mod tests {
             let n = v / v.norm();
             let angle = [90.0 / std::f64::consts::PI, 10.0, 0.37, 50.0, 180.0][case % 5];
             let latitude = libm::atan2(n.z, libm::hypot(n.x, n.y)).to_degrees();
-            let expected = cell([turn(n.x, n.y) / angle, latitude / angle], [0.0; 2]);
+            let expected = square([turn(n.x, n.y) / angle, latitude / angle], [0.0; 2]);
             let found = on_globe(One, &Vectors::splat(One, &n), angle);
             if found.certain.any() {
-                assert_eq!(found.second.any(), expected == Cell::Second, "{n:?} {angle}");
+                assert_eq!(found.second.any(), expected.cell == Cell::Second, "{n:?} {angle}");
+                assert_eq!(found.index, expected.index, "{n:?} {angle}");
             } else {
                 uncertain += 1;
             }

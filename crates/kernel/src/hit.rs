@@ -30,10 +30,15 @@ pub struct SurfacePoint<'a> {
     pub surface: &'a Surface,
     /// The shares of red, green and blue light that are thrown back here.
     pub albedo: [f64; 3],
+    /// In which cell of a checker it is, counted along the shape's two coordinates; zeros
+    /// where it has none or doubles do not tell cells apart.
+    pub cell: [f64; 2],
     /// The number of the shape in the description.
     pub shape: u32,
     /// The number of the item.
     pub item: u32,
+    /// Which part of the shape, as [`Hit::part`].
+    pub part: u32,
 }
 
 impl SurfacePoint<'_> {

@@ -27,6 +27,15 @@ pub(crate) enum Cell {
     Mixed,
 }
 
+/// The cell of a checker that a point is in.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Square {
+    pub(crate) cell: Cell,
+    /// Which one it is, counted along the shape's two coordinates; zeros where that is not
+    /// known.
+    pub(crate) index: [f64; 2],
+}
+
 /// A shape made ready to be met by rays. All of it is in the shape's own space;
 /// ray directions may have any length, and `t` counts directions.
 ///
@@ -74,7 +83,7 @@ pub(crate) trait Primitive: std::fmt::Debug + Send + Sync {
     fn contact(&self, ray: &Ray, crossing: &Crossing) -> Contact;
 
     /// The cell of a checker at a contact, by the shape's own two coordinates.
-    fn cell(&self, contact: &Contact, part: u32, checker: &Checker) -> Cell;
+    fn square(&self, contact: &Contact, part: u32, checker: &Checker) -> Square;
 
     /// A box around it, rounded outward; `None` where it has no end.
     fn bounds(&self) -> Option<Bounds>;

@@ -43,7 +43,7 @@ pub use line::{Line, Space};
 pub use number::Number;
 pub use optics::{Refraction, fresnel, reflect, refract, sheet};
 pub use polynomial::{Polynomial, RealRoot};
-pub use shapes::{crossings, inside};
+pub use shapes::{crossings, inside, passages};
 pub use stops::Stop;
 pub use tracer::{Branch, Kind, Pixel, Rgb, Tracer};
 pub use vector::Triple;

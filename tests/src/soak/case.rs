@@ -143,6 +143,11 @@ impl Case {
         &self.subjects[self.items[item as usize].0]
     }
 
+    /// How many placements are one within the other where an item stands.
+    pub(crate) fn depth(&self, item: u32) -> usize {
+        self.stands[self.items[item as usize].1].chain.len()
+    }
+
     pub(crate) fn frame(&self, item: u32) -> &Frame {
         &self.stands[self.items[item as usize].1].frame
     }
@@ -169,6 +174,11 @@ impl Case {
         };
         let (length, growth) = (direction.round().norm(), frame.growth);
         Line { origin, direction, length, scale, growth, size }
+    }
+
+    /// Whether a ray passes the ball around an item by much more than all roundings.
+    pub(crate) fn is_clear_of(&self, item: u32, ray: &Ray) -> bool {
+        self.subject(item).is_clear_of(&self.line(item, ray))
     }
 
     /// All crossings of a ray's line, nearest first.

@@ -156,14 +156,11 @@ impl Mul for Dd {
 impl Div for Dd {
     type Output = Self;
 
-    /// Long division with three digits of 53 bits.
+    /// Long division with two digits of 53 bits.
     fn div(self, other: Self) -> Self {
         let first = self.high / other.high;
         let rest = self - other * Self::from(first);
-        let second = rest.high / other.high;
-        let rest = rest - other * Self::from(second);
-        let third = rest.high / other.high;
-        quick_two_sum(first, second) + Self::from(third)
+        quick_two_sum(first, rest.high / other.high)
     }
 }
 

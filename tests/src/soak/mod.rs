@@ -36,3 +36,4 @@ pub use kind::Kind;
 pub use leaks::{Leaks, leaks};
 pub use report::{Report, band_in_ulps};
 pub use run::{replay, soak};
+pub use tally::Failure;

@@ -4,12 +4,12 @@
 use super::case::{Case, Entry};
 use super::dd::Dd;
 use lancer_math::{Point, Ray};
-use lancer_oracle::{Crossing, Line, Number, Passage, Space, crossings};
+use lancer_oracle::{Line, Number, Passage, Space, passages};
 use lancer_scene::{Geometry, Mesh};
 use std::sync::Arc;
 
 /// Right to so many bits; double-double numbers have about 100.
-const BITS: usize = 160;
+const BITS: usize = 128;
 
 /// A decision by less than this, as a share of the size of the scene seen from a ray,
 /// cannot always be had in double-double numbers: it is a thirtieth of the band.
@@ -31,24 +31,25 @@ impl Oracle {
         Self { spaces: (0..case.item_count()).map(space).collect() }
     }
 
-    /// Where it sees the ray cross other things than these: what is wrong.
+    /// Where it sees the ray cross other things of some items than these: what is wrong.
     pub(crate) fn contradiction(
         &self,
         case: &Case,
         ray: &Ray,
         entries: &[Entry],
+        items: impl IntoIterator<Item = u32>,
     ) -> Option<String> {
         let line = Line::from(ray);
-        (0..).zip(&self.spaces).find_map(|(item, space)| {
+        items.into_iter().find_map(|item| {
             let own: Vec<&Entry> = entries.iter().filter(|e| e.item == item).collect();
-            let found = exactly(case, item, space, &line, ray);
+            let found = exactly(case, item, &self.spaces[item as usize], &line, ray);
             differ(&own, &found).map(|what| format!("item {item}, says the oracle: {what}"))
         })
     }
 }
 
 /// The crossings of an item where that changes sides.
-fn exactly(case: &Case, item: u32, space: &Space, line: &Line, ray: &Ray) -> Vec<Crossing> {
+fn exactly(case: &Case, item: u32, space: &Space, line: &Line, ray: &Ray) -> Vec<Number> {
     let geometry = &case.subject(item).shape.geometry;
     let found = match geometry {
         Geometry::Mesh(mesh) => {
@@ -56,13 +57,12 @@ fn exactly(case: &Case, item: u32, space: &Space, line: &Line, ray: &Ray) -> Vec
             let direction = placement.local_vector(&ray.direction);
             let own = Ray::new(placement.local_point(&ray.origin), direction);
             let Some(part) = near_triangles(mesh, &own) else { return Vec::new() };
-            crossings(&Geometry::Mesh(Arc::new(part)), space, line, BITS)
+            passages(&Geometry::Mesh(Arc::new(part)), space, line, BITS)
         }
-        other => crossings(other, space, line, BITS),
+        other => passages(other, space, line, BITS),
     };
-    let mut list = found.list;
-    list.retain(|crossing| crossing.passage != Passage::Touches);
-    list
+    let passes = found.into_iter().filter(|(_, passage)| *passage != Passage::Touches);
+    passes.map(|(t, _)| t).collect()
 }
 
 /// The triangles of a mesh that a line may come near to: all of them would take
@@ -90,12 +90,12 @@ fn long(number: &Number) -> Dd {
     Dd::from(high) + Dd::from((number - &Number::from(high)).to_f64())
 }
 
-fn differ(own: &[&Entry], found: &[Crossing]) -> Option<String> {
+fn differ(own: &[&Entry], found: &[Number]) -> Option<String> {
     if own.iter().any(|e| e.crossing.margin < UNDECIDED) {
         return None;
     }
     let there: Vec<&&Entry> = own.iter().filter(|e| e.crossing.is_there).collect();
-    let places: Vec<Dd> = found.iter().map(|crossing| long(&crossing.t)).collect();
+    let places: Vec<Dd> = found.iter().map(long).collect();
     if there.len() != places.len() {
         return Some(format!("{} crossings, not {}", places.len(), there.len()));
     }

@@ -42,8 +42,6 @@ pub(crate) struct Paths {
 #[derive(Debug)]
 pub(crate) struct Disagreement {
     pub(crate) ray: usize,
-    /// With what shapes have alone, in boxes of their own.
-    pub(crate) is_of_scan: bool,
     pub(crate) what: String,
 }
 
@@ -119,7 +117,7 @@ impl Paths {
             let differ = dispatch(way.width, work);
             found.extend(differ.into_iter().map(|(ray, what)| {
                 let what = format!("in registers of {}, {what}", way.width.name());
-                Disagreement { ray, is_of_scan: false, what }
+                Disagreement { ray, what }
             }));
         }
         in_batches(&self.plain, "no shortcuts", &rays, &hits, t_max, found);
@@ -142,7 +140,7 @@ impl Paths {
 
 fn note(found: &mut Vec<Disagreement>, ray: usize, what: impl FnOnce() -> String, same: bool) {
     if !same {
-        found.push(Disagreement { ray, is_of_scan: false, what: what() });
+        found.push(Disagreement { ray, what: what() });
     }
 }
 
@@ -235,7 +233,7 @@ fn by_scan(shapes: &[Alone], i: usize, ray: &Ray, hit: Option<Hit>, found: &mut 
     }
     if nearest != hit {
         let what = format!("shape by shape: {nearest:?}, not {hit:?}");
-        found.push(Disagreement { ray: i, is_of_scan: true, what });
+        found.push(Disagreement { ray: i, what });
     }
 }
 

@@ -4,7 +4,7 @@
 use super::case::Case;
 use super::class::Class;
 use super::id::{Id, mix};
-use super::judge::{Asked, is_close, is_doubtful, judge};
+use super::judge::{Asked, is_close, judge};
 use super::kind::Kind;
 use super::oracle::Oracle;
 use super::paths::{Asking, Paths};
@@ -12,6 +12,7 @@ use super::report::Report;
 use super::tally::{Failure, Tally, Wrong, describe};
 use fastrand::Rng;
 use rayon::prelude::*;
+use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// How many rays each scene is asked, but for the last one.
@@ -20,23 +21,30 @@ const RAYS: u64 = 1000;
 /// The oracle is asked about one of so many rays that nothing is special about.
 const SEEDED: u64 = 1000;
 
-/// Asks so many rays of scenes of that kind; those that leave their hits come on top.
+/// Asks the rays of those numbers, a thousand for each scene of that kind; those that leave
+/// their hits come on top. What is wrong is told at once, too.
+///
+/// # Panics
+/// Where the first one is not the first of a scene.
 #[must_use]
-pub fn soak(kind: Kind, seed: u64, rays: u64) -> Report {
-    let cases = (0..rays.div_ceil(RAYS)).into_par_iter();
+pub fn soak(kind: Kind, seed: u64, rays: Range<u64>, tell: impl Fn(&Failure) + Sync) -> Report {
+    assert!(rays.start.is_multiple_of(RAYS), "{} is within a scene", rays.start);
+    let cases = (rays.start / RAYS..rays.end.div_ceil(RAYS)).into_par_iter();
     let tally = cases
         .map(|case| {
             let id = Id { kind, seed, case, ray: 0, is_left: false };
-            let count = RAYS.min(rays - case * RAYS);
+            let count = RAYS.min(rays.end - case * RAYS);
             let tally = catch_unwind(AssertUnwindSafe(|| Run::new(id).all(count)));
-            tally.unwrap_or_else(|panic| {
+            let tally = tally.unwrap_or_else(|panic| {
                 let text = panic.downcast_ref::<String>().map(String::as_str);
                 let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
                 let what = format!("panicked: {}", text.unwrap_or("without a word"));
                 // Asking the last one again asks all.
                 let id = Id { ray: count - 1, ..id };
                 Tally::of_failure(Failure { id: Some(id), what })
-            })
+            });
+            tally.told.iter().for_each(&tell);
+            tally
         })
         .reduce(Tally::default, Tally::and);
     Report::new(kind, tally)
@@ -115,17 +123,17 @@ impl Run {
             let before = tally.failures();
             let entries = case.crossings(&ray);
             while let Some(differs) = differ.next_if(|differs| differs.ray == i) {
-                if differs.is_of_scan && is_doubtful(&entries) {
-                    tally.boxed();
-                } else {
-                    tally.complain(case, &ray, Wrong::Disagreement, differs.what);
-                }
+                tally.complain(case, &ray, Wrong::Disagreement, differs.what);
             }
             let next = judge(case, &flight.asked, (hit, &entries), &mut flight.rng, tally);
             let failed = tally.failures() > before;
-            if failed || is_close(&entries) || mix(flight.id.ray_seed()).is_multiple_of(SEEDED) {
+            let is_chosen = mix(flight.id.ray_seed()).is_multiple_of(SEEDED);
+            if failed || is_chosen || is_close(&entries) {
                 tally.judged();
-                if let Some(what) = self.oracle.contradiction(case, &ray, &entries) {
+                // Where there is a decision to judge, not what the ray passes by far.
+                let all = failed || is_chosen;
+                let items = (0..case.item_count()).filter(|&i| all || !case.is_clear_of(i, &ray));
+                if let Some(what) = self.oracle.contradiction(case, &ray, &entries, items) {
                     tally.complain(case, &ray, Wrong::Overruled, what);
                 }
             }

@@ -22,8 +22,6 @@ pub(crate) struct Count {
     /// Points, normals, inconsistent answers.
     pub(crate) other: u64,
     pub(crate) disagreements: u64,
-    /// Found in one hierarchy of boxes and not in another: only in the band.
-    pub(crate) boxed: u64,
     pub(crate) judged: u64,
     pub(crate) overruled: u64,
     /// The largest error of the distance where |cos| is at least 0.1, in units in the
@@ -45,9 +43,11 @@ pub(crate) struct Count {
 
 /// What went wrong.
 #[derive(Debug, Clone)]
-pub(crate) struct Failure {
-    pub(crate) id: Option<Id>,
-    pub(crate) what: String,
+pub struct Failure {
+    /// The ray with which it did, if with one.
+    pub id: Option<Id>,
+    /// In which way, and all about the ray and what it exactly meets.
+    pub what: String,
 }
 
 /// What a soak has seen: a count for each class of rays.
@@ -91,7 +91,6 @@ impl Count {
             (&mut self.self_hits, other.self_hits),
             (&mut self.other, other.other),
             (&mut self.disagreements, other.disagreements),
-            (&mut self.boxed, other.boxed),
             (&mut self.judged, other.judged),
             (&mut self.overruled, other.overruled),
         ] {
@@ -161,11 +160,6 @@ impl Tally {
     /// The ray may be answered in two ways.
     pub(crate) fn in_band(&mut self) {
         self.count().in_band += 1;
-    }
-
-    /// It was found or not, as the boxes were that its shapes stood in.
-    pub(crate) fn boxed(&mut self) {
-        self.count().boxed += 1;
     }
 
     /// It was held against the oracle.

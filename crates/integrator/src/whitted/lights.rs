@@ -1,5 +1,6 @@
 use super::fresnel::{mirrored_by_sheet, mirrored_of_unbent};
 use super::media::{Media, medium, transmittance};
+use super::signature::{self, Signing, Spot, Way};
 use super::stops::Stops;
 use super::tracer::{Place, Rgb64, times};
 use crate::RayCounts;
@@ -21,6 +22,9 @@ pub(super) struct Source {
     pub(super) place: From,
     pub(super) falloff: Falloff,
     pub(super) beam: Option<Cone>,
+    /// Its marks in a signature: where all its light arrives, and where it does between the angles
+    /// of its beam.
+    pub(super) marks: [f64; 2],
 }
 
 /// Where light comes from.
@@ -68,6 +72,7 @@ pub(super) struct Seen<'a> {
     pub(super) point: &'a SurfacePoint<'a>,
     /// How much farther off than its own error rays must start from it.
     pub(super) more: f64,
+    pub(super) from_behind: bool,
     /// The normals on the side that is seen.
     pub(super) facet: Vector,
     pub(super) shading: Vector,
@@ -77,36 +82,44 @@ pub(super) struct Seen<'a> {
 
 impl Lights {
     pub(super) fn new(scene: &Scene) -> Self {
-        let source = |light: &Light| match light {
-            Light::Lamp { point, brightness, falloff } => Source {
-                brightness: brightness.get(),
-                place: From::Point(point.get()),
-                falloff: *falloff,
-                beam: None,
-            },
-            Light::Spot { point, axis, beam, brightness, falloff } => Source {
-                brightness: brightness.get(),
-                place: From::Point(point.get()),
-                falloff: *falloff,
-                beam: Some(Cone::new(axis.get(), beam)),
-            },
-            Light::Sun { direction, brightness } => Source {
-                brightness: brightness.get(),
-                // Never zero in a scene.
-                place: From::Direction(unit(-direction.get()).unwrap_or_else(Vector::z)),
-                falloff: Falloff::None,
-                beam: None,
-            },
+        let source = |(number, light): (u64, &Light)| {
+            let marks = [2 * number, 2 * number + 1].map(signature::mark);
+            match light {
+                Light::Lamp { point, brightness, falloff } => Source {
+                    brightness: brightness.get(),
+                    place: From::Point(point.get()),
+                    falloff: *falloff,
+                    beam: None,
+                    marks,
+                },
+                Light::Spot { point, axis, beam, brightness, falloff } => Source {
+                    brightness: brightness.get(),
+                    place: From::Point(point.get()),
+                    falloff: *falloff,
+                    beam: Some(Cone::new(axis.get(), beam)),
+                    marks,
+                },
+                Light::Sun { direction, brightness } => Source {
+                    brightness: brightness.get(),
+                    // Never zero in a scene.
+                    place: From::Direction(unit(-direction.get()).unwrap_or_else(Vector::z)),
+                    falloff: Falloff::None,
+                    beam: None,
+                    marks,
+                },
+            }
         };
-        Self { lights: scene.lights.iter().map(source).collect(), shadows: scene.shadows }
+        let lights = (0..).zip(&scene.lights).map(source).collect();
+        Self { lights, shadows: scene.shadows }
     }
 
-    /// The radiance of a white matte surface there.
-    pub(super) fn gather(
+    /// The radiance of a white matte surface there. Which lights arrive, and through what,
+    /// is added to the spot.
+    pub(super) fn gather<S: Signing>(
         &self,
         prepared: &Prepared,
         seen: &Seen<'_>,
-        counts: &mut RayCounts,
+        (spot, counts): (&mut Spot, &mut RayCounts),
         place: Place,
     ) -> Rgb64 {
         let mut sum = [0.0; 3];
@@ -130,8 +143,13 @@ impl Lights {
                 Falloff::Square => light.brightness * along / (squared * distance),
                 Falloff::None => light.brightness * along / distance,
             };
+            let mut mark = light.marks[0];
             if let Some(beam) = &light.beam {
-                strength *= beam.share(&(way / -distance));
+                let share = beam.share(&(way / -distance));
+                strength *= share;
+                if share != 1.0 {
+                    mark = light.marks[1];
+                }
             }
             if strength == 0.0 {
                 continue;
@@ -144,7 +162,11 @@ impl Lights {
             if prepared.any(&ray, t_max, Which::Opaque) {
                 continue;
             }
-            let arrives = self.through(prepared, &ray, t_max, seen.media, counts, place);
+            let (on, to) = ((&ray, t_max), (&mut *spot, &mut *counts));
+            let arrives = self.through::<S>(prepared, on, seen.media, to, place);
+            if S::SIGNED && arrives != [0.0; 3] {
+                spot.lit += mark;
+            }
             for (sum, arrives) in sum.iter_mut().zip(arrives) {
                 // Nothing of something infinite is nothing.
                 if arrives != 0.0 {
@@ -156,14 +178,13 @@ impl Lights {
     }
 
     /// What of the light arrives that goes along a ray, against it, from `t_max`, where
-    /// nothing opaque is in the way.
-    pub(super) fn through(
+    /// nothing opaque is in the way. What is, is added to the spot.
+    pub(super) fn through<S: Signing>(
         &self,
         prepared: &Prepared,
-        ray: &Ray,
-        t_max: f64,
+        (ray, t_max): (&Ray, f64),
         media: &Media,
-        counts: &mut RayCounts,
+        (spot, counts): (&mut Spot, &mut RayCounts),
         place: Place,
     ) -> Rgb64 {
         if !prepared.has_transparent() {
@@ -176,6 +197,12 @@ impl Lights {
         let length = ray.direction.norm();
         let mut media = media.clone();
         let (mut left, mut last) = ([1.0; 3], 0.0);
+        let mut ways = Way::EYE;
+        let mut passed = |point: &SurfacePoint<'_>, border: u64| {
+            if S::SIGNED {
+                ways = ways.then(border).then(u64::from(point.item)).then(prepared.patch(point));
+            }
+        };
         for stop in Stops::new(prepared, ray, &hits) {
             let here = medium(media.top(prepared), prepared);
             left = times(left, transmittance(&here, (stop.t - last) * length));
@@ -185,6 +212,7 @@ impl Lights {
                 let mirrored = mirrored_by_sheet(cosine, here.ior.get(), surface.medium.ior.get());
                 let passes = passing(point) * (1.0 - mirrored);
                 left = left.map(|left| left * passes);
+                passed(point, 0);
             }
             let Some(border) = stop.border(prepared, &mut media) else { continue };
             if !border.makes_sense {
@@ -195,10 +223,14 @@ impl Lights {
                 let n2 = medium(border.after, prepared).ior.get();
                 let passes = passing(point) * (1.0 - mirrored_of_unbent(cosine, n1, n2));
                 left = left.map(|left| left * passes);
+                passed(point, 1 + u64::from(border.after == Some(point.item)));
             }
             if left == [0.0; 3] {
                 return left;
             }
+        }
+        if S::SIGNED && !hits.is_empty() {
+            spot.piece = spot.piece.wrapping_add(ways.end());
         }
         let here = medium(media.top(prepared), prepared);
         times(left, transmittance(&here, (t_max - last) * length))

@@ -5,6 +5,7 @@
 mod fresnel;
 mod lights;
 mod media;
+mod signature;
 mod stops;
 mod tile;
 mod tracer;

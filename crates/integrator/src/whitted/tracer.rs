@@ -1,10 +1,11 @@
 use super::fresnel::{Refraction, mirrored_by_sheet, reflect, refract};
 use super::lights::{Lights, Seen};
 use super::media::{Media, medium, transmittance};
+use super::signature::{self, MIRRORED, ONWARD, Signed, Signing, Spot, Unsigned, Way};
 use super::stops::Stop;
 use super::view::View;
 use crate::engine::in_parts;
-use crate::{RayCounts, Rgb, Tracer};
+use crate::{MOST_SAMPLES, RayCounts, Rgb, Sample, Sampler, Tracer};
 use lancer_film::{LayerPixel, Window};
 use lancer_kernel::{KernelSettings, Prepared, SurfacePoint};
 use lancer_math::{Ray, Vector};
@@ -56,6 +57,7 @@ struct Pending {
     /// Which ray of the pixel it is.
     number: u32,
     kind: Kind,
+    way: Way,
 }
 
 impl Pending {
@@ -87,9 +89,10 @@ impl PartialEq for Pending {
 
 impl Eq for Pending {}
 
-/// A pixel while it is summed up.
+/// A pixel or sample while it is summed up.
 struct Sum<'a> {
     radiance: Rgb64,
+    signature: u64,
     /// Rays to follow.
     pending: BinaryHeap<Pending>,
     /// What their shares add up to.
@@ -119,9 +122,17 @@ impl WhittedTracer {
         }
     }
 
-    /// The ray of a pixel's centre and the solids that it starts in.
-    fn primary(&self, x: u32, y: u32) -> (Ray, Media) {
-        let ray = self.view.ray(f64::from(x) + 0.5, f64::from(y) + 0.5);
+    /// What begins in a medium is followed alone.
+    fn begins_in_air(&self) -> bool {
+        match self.view.eye() {
+            Some(_) => self.around_eye.is_empty(),
+            None => !self.prepared.has_transparent(),
+        }
+    }
+
+    /// The ray of a place of the picture and the solids that it starts in.
+    fn primary(&self, [x, y]: [f64; 2]) -> (Ray, Media) {
+        let ray = self.view.ray(x, y);
         let media = match self.view.eye() {
             Some(_) => self.around_eye.clone(),
             None => Media::new(self.prepared.solids_at(&ray.origin)),
@@ -129,29 +140,44 @@ impl WhittedTracer {
         (ray, media)
     }
 
-    fn radiance(&self, x: u32, y: u32, counts: &mut RayCounts) -> Rgb64 {
-        let (ray, media) = self.primary(x, y);
-        let first =
-            Pending { ray, share: [1.0; 3], media, depth: 0, number: 0, kind: Kind::Primary };
-        self.sum(first, [0.0; 3], (x, y), counts)
+    /// What is seen at a place, followed alone, and its signature.
+    fn alone<S: Signing>(&self, at: [f64; 2], place: Place, counts: &mut RayCounts) -> (Rgb, u64) {
+        let (ray, media) = self.primary(at);
+        let (depth, number, kind, way) = (0, 0, Kind::Primary, Way::EYE);
+        let first = Pending { ray, share: [1.0; 3], media, depth, number, kind, way };
+        let (radiance, signature) = self.sum::<S>(first, ([0.0; 3], 0), place, counts);
+        let radiance = radiance.map(|v| v as f32);
+        if radiance.iter().all(|v| v.is_finite()) {
+            return (radiance, signature);
+        }
+        counts.troubles.not_finite.at(place);
+        ([0.0; 3], signature)
     }
 
-    /// The radiance of a pixel that is known but for what its only ray sees, which
-    /// has left the last of so many mirrors.
-    pub(super) fn go_on(
+    /// The radiance and signature of a pixel that are known but for what its only ray sees,
+    /// which has left the last of so many mirrors.
+    pub(super) fn go_on<S: Signing>(
         &self,
         (ray, share, depth, kind): (Ray, Rgb64, u32, Kind),
-        radiance: Rgb64,
+        (way, known): (Way, (Rgb64, u64)),
         place: Place,
         counts: &mut RayCounts,
-    ) -> Rgb64 {
-        let next = Pending { ray, share, media: Media::default(), depth, number: depth, kind };
-        self.sum(next, radiance, place, counts)
+    ) -> (Rgb64, u64) {
+        let (media, number) = (Media::default(), depth);
+        let next = Pending { ray, share, media, depth, number, kind, way };
+        self.sum::<S>(next, known, place, counts)
     }
 
-    fn sum(&self, first: Pending, radiance: Rgb64, place: Place, counts: &mut RayCounts) -> Rgb64 {
+    fn sum<S: Signing>(
+        &self,
+        first: Pending,
+        (radiance, signature): (Rgb64, u64),
+        place: Place,
+        counts: &mut RayCounts,
+    ) -> (Rgb64, u64) {
         let mut sum = Sum {
             radiance,
+            signature,
             pending: BinaryHeap::new(),
             left: 0.0,
             rays: first.number,
@@ -159,7 +185,7 @@ impl WhittedTracer {
             counts,
             place,
         };
-        self.follow(first, &mut sum);
+        self.follow::<S>(first, &mut sum);
         // The largest shares first, and until all that are left together are small
         // enough: no fewer rays could do. If none of those left would have seen
         // anything brighter than display white, the pixel is off by the cutoff at
@@ -169,18 +195,18 @@ impl WhittedTracer {
             && let Some(next) = sum.pending.pop()
         {
             sum.left -= next.size();
-            self.follow(next, &mut sum);
+            self.follow::<S>(next, &mut sum);
         }
         // Without rays nothing is left, whatever rounding has made of the sum.
         let left = if sum.pending.is_empty() { 0.0 } else { sum.left };
         if left + sum.given_up > self.cutoff {
             sum.counts.troubles.given_up.at(place);
         }
-        sum.radiance
+        (sum.radiance, sum.signature)
     }
 
-    fn follow(&self, pending: Pending, sum: &mut Sum<'_>) {
-        let Pending { ray, share, media, depth, number, kind } = pending;
+    fn follow<S: Signing>(&self, pending: Pending, sum: &mut Sum<'_>) {
+        let Pending { ray, share, media, depth, number, kind, way } = pending;
         match kind {
             Kind::Primary => sum.counts.primary += 1,
             Kind::Reflected => sum.counts.reflected += 1,
@@ -189,37 +215,50 @@ impl WhittedTracer {
         let here = medium(media.top(&self.prepared), &self.prepared);
         let Some(hit) = self.prepared.nearest(&ray, f64::INFINITY) else {
             let share = times(share, transmittance(&here, f64::INFINITY));
+            if S::SIGNED {
+                sum.sign(way.meets(None).at(0.0, 0));
+            }
             return sum.add(share, self.background);
         };
         let share = times(share, transmittance(&here, hit.t));
         if !self.prepared.surface(hit.item).is_transparent() {
             let point = self.prepared.expand(&ray, &hit);
-            let at = Pending { ray, share, media, depth, number, kind };
-            return self.opaque(&point, 0.0, at, sum);
+            let at = Pending { ray, share, media, depth, number, kind, way };
+            return self.opaque::<S>(&point, 0.0, at, sum);
         }
         let stop = Stop::at(&self.prepared, &ray, &hit);
-        let at = Pending { ray, share, media, depth, number, kind };
+        let at = Pending { ray, share, media, depth, number, kind, way };
         match stop.opaque() {
-            Some(point) => self.opaque(point, stop.thickness(), at, sum),
-            None => self.transparent(&stop, at, sum),
+            Some(point) => self.opaque::<S>(point, stop.thickness(), at, sum),
+            None => self.transparent::<S>(&stop, at, sum),
         }
     }
 
     /// A surface that lets nothing through.
-    fn opaque(&self, point: &SurfacePoint<'_>, more: f64, at: Pending, sum: &mut Sum<'_>) {
+    fn opaque<S: Signing>(
+        &self,
+        point: &SurfacePoint<'_>,
+        more: f64,
+        at: Pending,
+        sum: &mut Sum<'_>,
+    ) {
         let seen = Seen::new(&at.ray, point, more, &at.media);
         let gloss = point.surface.gloss.get();
         sum.add(at.share, point.surface.emission.get());
-        self.matte(&seen, scaled(at.share, 1.0 - gloss), sum);
+        let spot = self.matte::<S>(&seen, scaled(at.share, 1.0 - gloss), sum);
+        if S::SIGNED {
+            sum.sign(at.way.meets(Some(point.item)).at(spot.lit, spot.piece));
+        }
         if gloss > 0.0 {
             let mirrored = seen.leave(reflect(at.ray.direction, seen.shading, seen.facet));
-            sum.push(mirrored, scaled(at.share, gloss), at.media, at.depth, Kind::Reflected);
+            let next = (mirrored, scaled(at.share, gloss), at.media);
+            sum.push(next, at.depth, (Kind::Reflected, at.way.then(MIRRORED)));
         }
     }
 
     /// Surfaces that let light through, at one place.
-    fn transparent(&self, stop: &Stop<'_>, at: Pending, sum: &mut Sum<'_>) {
-        let Pending { ray, mut share, media, depth, .. } = at;
+    fn transparent<S: Signing>(&self, stop: &Stop<'_>, at: Pending, sum: &mut Sum<'_>) {
+        let Pending { ray, mut share, media, depth, mut way, .. } = at;
         let here = medium(media.top(&self.prepared), &self.prepared);
         let more = stop.thickness();
         let mirror = |seen: &Seen<'_>| seen.leave(reflect(ray.direction, seen.shading, seen.facet));
@@ -230,9 +269,14 @@ impl WhittedTracer {
             let mirrored =
                 mirrored_by_sheet(cosine, here.ior.get(), point.surface.medium.ior.get());
             sum.add(share, point.surface.emission.get());
-            self.matte(&seen, scaled(share, parts.matte), sum);
+            let spot = self.matte::<S>(&seen, scaled(share, parts.matte), sum);
+            if S::SIGNED {
+                sum.sign(way.meets(Some(point.item)).at(spot.lit, spot.piece));
+            }
             let back = scaled(share, parts.gloss + parts.clear * mirrored);
-            sum.push(mirror(&seen), back, media.clone(), depth, Kind::Reflected);
+            let next = (mirror(&seen), back, media.clone());
+            sum.push(next, depth, (Kind::Reflected, way.then(MIRRORED)));
+            way = way.then(ONWARD);
             share = scaled(share, parts.clear * (1.0 - mirrored));
             last = Some(*point);
         }
@@ -250,36 +294,49 @@ impl WhittedTracer {
                 Some(sheet) => sheet.leave_by(ray.direction, more),
                 None => stop.straight_on(ray.direction, &beyond, more),
             };
-            return sum.push(onward, share, beyond, depth, Kind::Transmitted);
+            // It is as if nothing had been there.
+            return sum.push((onward, share, beyond), depth, (Kind::Transmitted, way));
         };
         let seen = Seen::new(&ray, point, more, &media);
         let parts = Parts::new(point);
         let n1 = medium(border.before, &self.prepared).ior.get();
         let n2 = medium(border.after, &self.prepared).ior.get();
         sum.add(share, point.surface.emission.get());
-        self.matte(&seen, scaled(share, parts.matte), sum);
+        let mut spot = self.matte::<S>(&seen, scaled(share, parts.matte), sum);
+        let (reflected, transmitted) =
+            ((Kind::Reflected, way.then(MIRRORED)), (Kind::Transmitted, way.then(ONWARD)));
         match seen.refract(ray.direction, n1, n2) {
             Refraction::Total => {
+                spot.lit += signature::TOTAL;
                 let back = scaled(share, parts.gloss + parts.clear);
-                sum.push(mirror(&seen), back, media.clone(), depth, Kind::Reflected);
+                sum.push((mirror(&seen), back, media.clone()), depth, reflected);
             }
             Refraction::Part { mirrored, direction } => {
                 let back = scaled(share, parts.gloss + parts.clear * mirrored);
-                sum.push(mirror(&seen), back, media.clone(), depth, Kind::Reflected);
+                sum.push((mirror(&seen), back, media.clone()), depth, reflected);
                 let through = scaled(share, parts.clear * (1.0 - mirrored));
                 let onward = point.leave_by(direction, more);
-                sum.push(onward, through, beyond, depth, Kind::Transmitted);
+                sum.push((onward, through, beyond), depth, transmitted);
             }
+        }
+        if S::SIGNED {
+            sum.sign(way.meets(Some(point.item)).at(spot.lit, spot.piece));
         }
     }
 
-    /// Adds what lights make of a surface's matte part.
-    fn matte(&self, seen: &Seen<'_>, share: Rgb64, sum: &mut Sum<'_>) {
+    /// Adds what lights make of a surface's matte part, and says where on it that is.
+    fn matte<S: Signing>(&self, seen: &Seen<'_>, share: Rgb64, sum: &mut Sum<'_>) -> Spot {
+        let mut spot = match S::SIGNED {
+            true => Spot::new(&self.prepared, seen.point, seen.from_behind),
+            false => Spot::default(),
+        };
         let share = times(share, seen.point.albedo);
         if share != [0.0; 3] {
-            let light = self.lights.gather(&self.prepared, seen, sum.counts, sum.place);
+            let to = (&mut spot, &mut *sum.counts);
+            let light = self.lights.gather::<S>(&self.prepared, seen, to, sum.place);
             sum.add(share, light);
         }
+        spot
     }
 }
 
@@ -301,7 +358,8 @@ impl<'a> Seen<'a> {
     fn new(ray: &Ray, point: &'a SurfacePoint<'a>, more: f64, media: &'a Media) -> Self {
         let from_behind = ray.direction.dot(&point.normal) > 0.0;
         let side = |normal: Vector| if from_behind { -normal } else { normal };
-        Self { point, more, facet: side(point.normal), shading: side(point.shading), media }
+        let (facet, shading) = (side(point.normal), side(point.shading));
+        Self { point, more, from_behind, facet, shading, media }
     }
 
     /// The ray from here in that direction, past all that is crossed together.
@@ -341,10 +399,20 @@ impl Sum<'_> {
         }
     }
 
+    fn sign(&mut self, ray: u64) {
+        self.signature = self.signature.wrapping_add(ray);
+    }
+
     /// Keeps a ray to be followed, unless it does not matter at all.
-    fn push(&mut self, ray: Ray, share: Rgb64, media: Media, depth: u32, kind: Kind) {
+    fn push(
+        &mut self,
+        (ray, share, media): (Ray, Rgb64, Media),
+        depth: u32,
+        (kind, way): (Kind, Way),
+    ) {
         self.rays += 1;
-        let pending = Pending { ray, share, media, depth: depth + 1, number: self.rays, kind };
+        let number = self.rays;
+        let pending = Pending { ray, share, media, depth: depth + 1, number, kind, way };
         let size = pending.size();
         if size == 0.0 {
             return;
@@ -363,25 +431,40 @@ impl Sum<'_> {
     }
 }
 
+/// The place of a pixel's centre.
+fn centre(x: u32, y: u32) -> [f64; 2] {
+    [f64::from(x) + 0.5, f64::from(y) + 0.5]
+}
+
+impl Sampler for WhittedTracer {
+    fn see(&self, samples: &[Sample], seen: &mut [crate::Seen], counts: &mut RayCounts) {
+        if self.begins_in_air() {
+            let parts = samples.chunks(MOST_SAMPLES).zip(seen.chunks_mut(MOST_SAMPLES));
+            return parts.for_each(|(samples, seen)| self.samples(samples, seen, counts));
+        }
+        for (sample, seen) in samples.iter().zip(seen) {
+            *seen = self.see_alone(sample, counts);
+        }
+    }
+
+    fn see_alone(&self, sample: &Sample, counts: &mut RayCounts) -> crate::Seen {
+        let (radiance, signature) = self.alone::<Signed>(sample.place, sample.pixel, counts);
+        crate::Seen { radiance, signature }
+    }
+}
+
 impl Tracer for WhittedTracer {
     fn pixel(&self, x: u32, y: u32, counts: &mut RayCounts) -> Rgb {
-        let radiance = self.radiance(x, y, counts);
-        let pixel = radiance.map(|v| v as f32);
-        if pixel.iter().all(|v| v.is_finite()) {
-            return pixel;
-        }
-        counts.troubles.not_finite.at((x, y));
-        [0.0; 3]
+        self.alone::<Unsigned>(centre(x, y), (x, y), counts).0
+    }
+
+    fn sampler(&self) -> Option<&dyn Sampler> {
+        Some(self)
     }
 
     fn tile(&self, tile: Window, pixels: &mut [Rgb], counts: &mut RayCounts) {
-        // What begins in a medium is followed alone.
-        let begins_in_air = match self.view.eye() {
-            Some(_) => self.around_eye.is_empty(),
-            None => !self.prepared.has_transparent(),
-        };
-        if begins_in_air {
-            return in_parts(tile, pixels, |tile, pixels| self.stages(tile, pixels, counts));
+        if self.begins_in_air() {
+            return in_parts(tile, pixels, |tile, pixels| self.pixels(tile, pixels, counts));
         }
         for (pixel, index) in pixels.iter_mut().zip(0..) {
             let (x, y) = (tile.x + index % tile.width, tile.y + index / tile.width);
@@ -390,7 +473,7 @@ impl Tracer for WhittedTracer {
     }
 
     fn first_hit(&self, x: u32, y: u32) -> Option<LayerPixel> {
-        let (ray, _) = self.primary(x, y);
+        let (ray, _) = self.primary(centre(x, y));
         let Some(hit) = self.prepared.nearest(&ray, f64::INFINITY) else {
             return Some(LayerPixel::MISS);
         };

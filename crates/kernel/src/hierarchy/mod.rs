@@ -21,6 +21,7 @@ use build::{DEPTH, Item};
 use lancer_math::Bounds;
 pub(crate) use node::LEAF;
 use node::{CHILDREN, MOST_ITEMS, Node, Space};
+pub(crate) use query::stretch_in;
 use rayon::prelude::*;
 pub(crate) use sort::{answer_each, order_in};
 use std::ops::Range;

@@ -56,7 +56,7 @@ impl Query {
             #[inline(always)]
             |c| 1.0 / c,
         );
-        let start = enter(bounds, ray, &inverse, margin, from, to)?;
+        let (start, _) = stretch_in(bounds, ray, &inverse, margin, (from, to))?;
         let from_centre = ray.origin - space.centre;
         let step = d * start;
         let far = from_centre.abs() + step.abs();
@@ -115,20 +115,20 @@ impl Query {
     }
 }
 
-/// From where on the ray is in the box, if it is so between `from` and `to`.
+/// From where to where the ray is in the box made larger by `margin`, if it is so between
+/// `from` and `to`: rounded outward, and in a larger box never a shorter stretch.
 ///
 /// Along an axis in which the ray does not move, it is between the sides
 /// everywhere or nowhere; exactly on one, infinity times 0 is not a number
 /// and, as it is compared here, does not narrow the interval.
 #[inline(always)]
-fn enter(
+pub(crate) fn stretch_in(
     bounds: &Bounds,
     ray: &Ray,
     inverse: &Vector,
     margin: f64,
-    from: f64,
-    to: f64,
-) -> Option<f64> {
+    (from, to): (f64, f64),
+) -> Option<(f64, f64)> {
     let (mut near, mut far) = (from, to);
     for axis in 0..3 {
         let inverse = inverse[axis];
@@ -142,5 +142,5 @@ fn enter(
         near = if enter > near { enter } else { near };
         far = if leave < far { leave } else { far };
     }
-    (near <= far).then_some(near)
+    (near <= far).then_some((near, far))
 }

@@ -2,7 +2,7 @@
 
 use super::Prepared;
 use super::looks::Look;
-use super::space::{Content, Entry, Kept};
+use super::space::{Content, Entry, Kept, Kind};
 use super::walk::{Place, Walk};
 use crate::hierarchy::Stack;
 use crate::lanes::{One, lanes_of};
@@ -33,6 +33,14 @@ impl Item<'_> {
     }
 }
 
+/// A number of a unit vector that is the same for those that are about so many steps of 1
+/// apart. What is amid a step are zeros, halves and ones, of which roundings do not
+/// matter.
+fn coarse(v: &Vector, steps: f64) -> u64 {
+    let [x, y, z] = [v.x, v.y, v.z].map(|c| (c * steps + (steps + 0.5)) as u64);
+    (x << 42) | (y << 21) | z
+}
+
 impl Prepared {
     /// # Panics
     /// Where there is no such item.
@@ -58,7 +66,7 @@ impl Prepared {
         let item = self.item(hit.item);
         let local = item.place.local(ray);
         let crossing = Crossing { t: hit.t, part: hit.part };
-        let (contact, albedo) = item.primitive(|primitive| {
+        let (contact, (albedo, cell)) = item.primitive(|primitive| {
             let contact = primitive.contact(&local, &crossing);
             (contact, item.look.albedo(primitive, &contact, hit.part))
         });
@@ -69,13 +77,34 @@ impl Prepared {
             shading: contact.shading,
             surface: &item.look.surface,
             albedo,
+            cell,
             shape: item.place.space.first_shape + item.shape,
             item: hit.item,
+            part: hit.part,
         };
         if !item.place.is_world {
             surface.place(&item.place.placement);
         }
         surface
+    }
+
+    /// A number for each piece of an item's surface that is smooth: points of one item with
+    /// different ones have an edge between them. Of meshes facets in one plane are one
+    /// piece, and what has normals of its own is one of about a hundred by where they
+    /// point, so that creases and what stands in front of itself are told as well.
+    ///
+    /// # Panics
+    /// Where there is no such item.
+    #[must_use]
+    pub fn patch(&self, point: &SurfacePoint<'_>) -> u64 {
+        let item = self.item(point.item);
+        let Kept::Other(index) = item.place.space.own[item.shape as usize].kept else { return 0 };
+        match &item.place.space.others[index as usize].primitive {
+            Kind::Mesh(mesh) if mesh.is_smooth() => coarse(&point.shading, 2.0),
+            // Facets in one plane are a few roundings apart.
+            Kind::Mesh(_) => coarse(&point.normal, 524_288.0),
+            Kind::Any(_) => u64::from(point.part),
+        }
     }
 
     /// What an item looks like.

@@ -1,6 +1,6 @@
 //! What surfaces look like, each kept once however many shapes have it.
 
-use crate::primitive::{Cell, Contact, Primitive};
+use crate::primitive::{Cell, Contact, Primitive, Square};
 use lancer_scene::{Colour, Pattern, Surface};
 use std::collections::HashMap;
 
@@ -28,19 +28,24 @@ impl Look {
         [self.albedo, self.second]
     }
 
-    /// The shares of light that are thrown back at a contact.
+    /// The shares of light that are thrown back at a contact, and in which cell of a
+    /// checker that is.
     pub(super) fn albedo(
         &self,
         primitive: &dyn Primitive,
         contact: &Contact,
         part: u32,
-    ) -> [f64; 3] {
-        let Pattern::Checker(checker) = self.surface.pattern else { return self.albedo };
-        match primitive.cell(contact, part, &checker) {
+    ) -> ([f64; 3], [f64; 2]) {
+        let Pattern::Checker(checker) = self.surface.pattern else {
+            return (self.albedo, [0.0; 2]);
+        };
+        let Square { cell, index } = primitive.square(contact, part, &checker);
+        let albedo = match cell {
             Cell::First => self.albedo,
             Cell::Second => self.second,
             Cell::Mixed => [0, 1, 2].map(|i| (self.albedo[i] + self.second[i]) / 2.0),
-        }
+        };
+        (albedo, index)
     }
 }
 

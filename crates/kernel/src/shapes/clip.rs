@@ -9,7 +9,8 @@
 
 use super::exact::compare_products;
 use crate::crossing::Crossings;
-use lancer_math::Ray;
+use crate::hierarchy::stretch_in;
+use lancer_math::{Bounds, Ray};
 
 /// Where a line goes through a plane: t and the quotient that it is.
 #[derive(Debug, Clone, Copy)]
@@ -75,12 +76,39 @@ impl Stretch {
     /// Its two ends, if anything is left.
     #[inline]
     pub(crate) fn ends(&self) -> Crossings {
+        self.ends_by(Some)
+    }
+
+    /// Those in the box of the shape, which are no others but for roundings.
+    #[inline]
+    pub(crate) fn ends_in(&self, bounds: &Bounds, ray: &Ray) -> Crossings {
+        self.ends_by(|ends| kept_in(bounds, ray, ends))
+    }
+
+    #[inline]
+    fn ends_by(&self, kept: impl FnOnce([f64; 2]) -> Option<[f64; 2]>) -> Crossings {
         let mut crossings = Crossings::NONE;
         let finite = self.from.t > f64::NEG_INFINITY && self.to.t < f64::INFINITY;
-        if finite && !self.from.is_after(&self.to) {
-            crossings.add(self.from.t, self.from.part);
-            crossings.add(self.to.t, self.to.part);
+        if finite
+            && !self.from.is_after(&self.to)
+            && let Some([from, to]) = kept([self.from.t, self.to.t])
+        {
+            crossings.add(from, self.from.part);
+            crossings.add(to, self.to.part);
         }
         crossings
     }
+}
+
+/// The part of a stretch of a ray that is in the box of the convex shape which it is the
+/// inside of; `None` where that has none, as past a sharp corner.
+///
+/// Both contain what is exactly inside, so no more is lost than a stretch which is shorter
+/// than its roundings, and the ends come nearer to where they are. Without this, ends may be
+/// outside of the box by any number of roundings, where two surfaces meet at a small
+/// angle, and then be found or not, as other boxes are around that one.
+#[inline]
+pub(crate) fn kept_in(bounds: &Bounds, ray: &Ray, [from, to]: [f64; 2]) -> Option<[f64; 2]> {
+    let inverse = ray.direction.map(|c| 1.0 / c);
+    stretch_in(bounds, ray, &inverse, 0.0, (from, to)).map(|(from, to)| [from, to])
 }

@@ -11,7 +11,7 @@ use super::clip::{Cut, Stretch};
 use crate::Crossing;
 use crate::checker;
 use crate::crossing::Crossings;
-use crate::primitive::{Cell, Contact, Primitive};
+use crate::primitive::{Contact, Primitive, Square};
 use lancer_math::{Bounds, Point, Ray, Vector};
 use lancer_scene::{Checker, Cuboid};
 
@@ -102,12 +102,12 @@ impl Primitive for Slabs {
     }
 
     /// Squares on each face from the corner with the smallest coordinates.
-    fn cell(&self, contact: &Contact, part: u32, checker: &Checker) -> Cell {
+    fn square(&self, contact: &Contact, part: u32, checker: &Checker) -> Square {
         let length = checker.length.get();
         let at = (contact.point - self.bounds.min) / length;
         let axis = part as usize / 2;
         let slack = checker::slack(contact.error, length);
-        checker::cell([at[(axis + 1) % 3], at[(axis + 2) % 3]], [slack; 2])
+        checker::square([at[(axis + 1) % 3], at[(axis + 2) % 3]], [slack; 2])
     }
 
     fn bounds(&self) -> Option<Bounds> {
@@ -130,6 +130,7 @@ mod tests {
         check_leaving, check_pairs, check_scaling, direction, ray, ray_to, ts, worst_error,
     };
     use super::*;
+    use crate::primitive::Cell;
     use fastrand::Rng;
     use lancer_scene::{Colour, Position};
 
@@ -295,7 +296,7 @@ mod tests {
             let ray = ray([x, y, 9.0], [0.0, 0.0, -1.0]);
             let crossing = shape.nearest(&ray, 10.0).unwrap();
             let contact = shape.contact(&ray, &crossing);
-            assert_eq!(shape.cell(&contact, crossing.part, &checker), expected, "{x} {y}");
+            assert_eq!(shape.square(&contact, crossing.part, &checker).cell, expected, "{x} {y}");
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::Crossing;
 use crate::crossing::Crossings;
-use crate::primitive::{Cell, Contact, Primitive};
+use crate::primitive::{Cell, Contact, Primitive, Square};
 use lancer_math::{Bounds, Ray, unit};
 use lancer_scene::{Checker, CustomShape};
 use std::sync::Arc;
@@ -51,8 +51,12 @@ impl Primitive for Own {
         Contact { point, error: 64.0 * f64::EPSILON * size, normal, shading: normal }
     }
 
-    fn cell(&self, contact: &Contact, _part: u32, _checker: &Checker) -> Cell {
-        if self.shape.shows_second_colour(&contact.point) { Cell::Second } else { Cell::First }
+    fn square(&self, contact: &Contact, _part: u32, _checker: &Checker) -> Square {
+        let (cell, index) = match self.shape.shows_second_colour(&contact.point) {
+            true => (Cell::Second, 1.0),
+            false => (Cell::First, 0.0),
+        };
+        Square { cell, index: [index, 0.0] }
     }
 
     fn bounds(&self) -> Option<Bounds> {
@@ -106,7 +110,7 @@ mod tests {
             assert_eq!(ts(&shape, &up).len(), 1);
             let contact = shape.contact(&up, &crossing);
             assert_sound(&contact);
-            assert_eq!(shape.cell(&contact, 0, &checker), Cell::Second);
+            assert_eq!(shape.square(&contact, 0, &checker).cell, Cell::Second);
         }
         assert!(shape.nearest(&ray([0.0; 3], [0.0; 3]), f64::INFINITY).is_none());
         assert!(shape.nearest(&ray([0.0; 3], [1.0, 0.0, 0.0]), f64::INFINITY).is_none());

@@ -11,7 +11,7 @@ use crate::Crossing;
 use crate::checker;
 use crate::crossing::Crossings;
 use crate::near::{Near, stepped};
-use crate::primitive::{Cell, Contact, Primitive};
+use crate::primitive::{Contact, Primitive, Square};
 use lancer_math::{Bounds, Point, Ray, Vector, unit};
 use lancer_scene::{Checker, Direction, Disc, Rectangle};
 
@@ -67,10 +67,10 @@ impl Primitive for Round {
         }
     }
 
-    fn cell(&self, contact: &Contact, _part: u32, checker: &Checker) -> Cell {
+    fn square(&self, contact: &Contact, _part: u32, checker: &Checker) -> Square {
         let length = checker.length.get();
         let at = self.frame.local(&(contact.point - self.centre)) / length;
-        checker::cell([at.x, at.y], [checker::slack(contact.error, length); 2])
+        checker::square([at.x, at.y], [checker::slack(contact.error, length); 2])
     }
 
     fn bounds(&self) -> Option<Bounds> {
@@ -131,11 +131,11 @@ impl Patch {
     }
 
     /// The cell of squares along the first side.
-    pub(crate) fn cell(&self, contact: &Contact, checker: &Checker) -> Cell {
+    pub(crate) fn square(&self, contact: &Contact, checker: &Checker) -> Square {
         let length = checker.length.get();
         let at = contact.point - self.corner;
         let squares = self.axes.map(|axis| axis.dot(&at) / length);
-        checker::cell(squares, [checker::slack(contact.error, length); 2])
+        checker::square(squares, [checker::slack(contact.error, length); 2])
     }
 }
 
@@ -178,8 +178,8 @@ impl Primitive for Sheet {
         self.patch.contact(shares, self.size)
     }
 
-    fn cell(&self, contact: &Contact, _part: u32, checker: &Checker) -> Cell {
-        self.patch.cell(contact, checker)
+    fn square(&self, contact: &Contact, _part: u32, checker: &Checker) -> Square {
+        self.patch.square(contact, checker)
     }
 
     fn bounds(&self) -> Option<Bounds> {
@@ -195,6 +195,7 @@ mod tests {
         between, check_scaling, direction, dot, doubles, minus, ray, ray_to, times, ts, worst_error,
     };
     use super::*;
+    use crate::primitive::Cell;
     use fastrand::Rng;
     use lancer_scene::{Colour, Geometry, Shape, Surface};
 
@@ -322,7 +323,7 @@ mod tests {
             let ray = ray([5.0, y, z], [-1.0, 0.0, 0.0]);
             let contact = shape.contact(&ray, &shape.nearest(&ray, 10.0).unwrap());
             assert_eq!(contact.normal, Vector::x());
-            assert_eq!(shape.cell(&contact, 0, &checker), expected, "{y} {z}");
+            assert_eq!(shape.square(&contact, 0, &checker).cell, expected, "{y} {z}");
         }
     }
 

@@ -13,7 +13,7 @@ use crate::Crossing;
 use crate::checker;
 use crate::crossing::Crossings;
 use crate::lanes::{Lanes, One, Real, Vectors, larger};
-use crate::primitive::{Cell, Contact, Primitive};
+use crate::primitive::{Contact, Primitive, Square};
 use crate::rays::Rays;
 use lancer_math::{Bounds, Point, Ray, Vector, unit};
 use lancer_scene::{Checker, Plane};
@@ -152,10 +152,10 @@ impl Primitive for HalfSpace {
         Contact { point: point.lane(0).into(), error, normal, shading: normal }
     }
 
-    fn cell(&self, contact: &Contact, _part: u32, checker: &Checker) -> Cell {
+    fn square(&self, contact: &Contact, _part: u32, checker: &Checker) -> Square {
         let point = Vectors::splat_point(One, &contact.point);
         let (first, second) = self.squares(One, &point, checker);
-        checker::cell([first, second], [checker::slack(contact.error, checker.length.get()); 2])
+        checker::square([first, second], [checker::slack(contact.error, checker.length.get()); 2])
     }
 
     fn bounds(&self) -> Option<Bounds> {
@@ -178,6 +178,7 @@ mod tests {
         assert_sound, between, dot, doubles, ray, ray_to, ts, worst_error,
     };
     use super::*;
+    use crate::primitive::Cell;
     use fastrand::Rng;
     use lancer_scene::{Direction, Position};
 
@@ -266,7 +267,11 @@ mod tests {
                 let odd = libm::floor(i) % 2.0 != 0.0;
                 let other = libm::floor(j) % 2.0 != 0.0;
                 let expected = if odd == other { Cell::First } else { Cell::Second };
-                assert_eq!(shape.cell(&contact, 0, &checker), expected, "{normal:?} {i} {j}");
+                assert_eq!(
+                    shape.square(&contact, 0, &checker).cell,
+                    expected,
+                    "{normal:?} {i} {j}"
+                );
             }
         }
     }

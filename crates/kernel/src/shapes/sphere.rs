@@ -21,7 +21,7 @@ use crate::checker;
 use crate::crossing::Crossings;
 use crate::lanes::{Lanes, Mask, One, Real, Vectors};
 use crate::near::steps;
-use crate::primitive::{Cell, Contact, Primitive};
+use crate::primitive::{Contact, Primitive, Square};
 use crate::rays::{Pairs, Rays, Tame};
 use lancer_math::{Bounds, Point, Ray, Vector};
 use lancer_scene::{Checker, Sphere};
@@ -241,7 +241,7 @@ impl Primitive for Ball {
         Contact { point: point.lane(0).into(), error, normal, shading: normal }
     }
 
-    fn cell(&self, contact: &Contact, _part: u32, checker: &Checker) -> Cell {
+    fn square(&self, contact: &Contact, _part: u32, checker: &Checker) -> Square {
         let n = contact.normal;
         let angle = checker.angle.get();
         let across = libm::hypot(n.x, n.y);
@@ -249,7 +249,7 @@ impl Primitive for Ball {
         // Meridians run together at the poles.
         let slack = [across, 1.0]
             .map(|radius| checker::slack_around(contact.error, radius * self.radius, angle));
-        checker::cell([checker::turn(n.x, n.y) / angle, latitude / angle], slack)
+        checker::square([checker::turn(n.x, n.y) / angle, latitude / angle], slack)
     }
 
     fn bounds(&self) -> Option<Bounds> {

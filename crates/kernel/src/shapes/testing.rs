@@ -239,6 +239,23 @@ pub(crate) fn worst_error(
     (worst, count)
 }
 
+/// Checks that no crossing is farther outside of the shape's box than a place along a ray is
+/// rounded, so that it is found whatever boxes are around that. How many there were.
+pub(crate) fn check_kept_in_box(shape: &dyn Primitive, rays: impl Iterator<Item = Ray>) -> usize {
+    let bounds = shape.bounds().expect("a shape with an end");
+    let mut met = 0;
+    for (case, ray) in rays.enumerate() {
+        for crossing in all(shape, &ray) {
+            let by = ray.origin.coords.abs() + ray.direction.abs() * crossing.t.abs();
+            let grown = bounds.grown((by + Vector::repeat(bounds.reach())) * (12.0 * f64::EPSILON));
+            let place = ray.at(crossing.t);
+            assert!(grown.contains(&place), "case {case}: {place:?} of {ray:?} and {shape:?}");
+            met += 1;
+        }
+    }
+    met
+}
+
 /// Checks that a scene of another size gives the same bits: `build` makes the
 /// shape with all its lengths times a power of two.
 pub(crate) fn check_scaling(build: impl Fn(f64) -> Box<dyn Primitive>, rays: &[Ray]) {

@@ -8,7 +8,7 @@ use super::flat::Patch;
 use crate::Crossing;
 use crate::crossing::Crossings;
 use crate::near::stepped;
-use crate::primitive::{Cell, Contact, Primitive};
+use crate::primitive::{Contact, Primitive, Square};
 use lancer_math::{Bounds, Point, Ray};
 use lancer_scene::{Checker, Tetrahedron};
 
@@ -58,7 +58,7 @@ impl Primitive for Faces {
                 return Crossings::NONE;
             }
         }
-        inside.ends()
+        inside.ends_in(&self.bounds, ray)
     }
 
     /// On the face, and if it lies beyond an edge by the rounding of a large t,
@@ -71,8 +71,8 @@ impl Primitive for Faces {
         face.contact([u / sum, v / sum], self.size)
     }
 
-    fn cell(&self, contact: &Contact, part: u32, checker: &Checker) -> Cell {
-        self.faces[part as usize % 4].cell(contact, checker)
+    fn square(&self, contact: &Contact, part: u32, checker: &Checker) -> Square {
+        self.faces[part as usize % 4].square(contact, checker)
     }
 
     fn bounds(&self) -> Option<Bounds> {
@@ -91,8 +91,8 @@ impl Primitive for Faces {
 #[cfg(test)]
 mod tests {
     use super::super::testing::{
-        between, check_leaving, check_pairs, check_scaling, direction, dot, ray, ray_to, ts,
-        worst_error,
+        between, check_kept_in_box, check_leaving, check_pairs, check_scaling, direction, dot, ray,
+        ray_to, ts, worst_error,
     };
     use super::*;
     use fastrand::Rng;
@@ -267,5 +267,28 @@ mod tests {
             },
             &rays,
         );
+    }
+
+    /// Where two faces are met at a small angle, rounding decides where they cross.
+    #[test]
+    fn sharp_corners_are_met_in_the_box() {
+        let mut rng = Rng::with_seed(23);
+        let mut met = 0;
+        for _ in 0..2000 {
+            let thin = libm::exp10(-9.0 * rng.f64());
+            let base = Point::from(direction(&mut rng));
+            let aside = [0, 1, 2].map(|_| base + direction(&mut rng) * thin);
+            let far = Point::from(direction(&mut rng) * -3.0);
+            let corners = [aside[0], aside[1], aside[2], far].map(|p| [p.x, p.y, p.z]);
+            let position = corners.map(|c| Position::new(c).unwrap());
+            let Ok(given) = Tetrahedron::new(position) else { continue };
+            let shape = Faces::new(&given);
+            let rays = (0..30).map(|_| {
+                let beside = direction(&mut rng) * (thin * libm::exp10(-14.0 * rng.f64()));
+                ray_to(&mut rng, &(far + beside), 3.0)
+            });
+            met += check_kept_in_box(&shape, rays);
+        }
+        assert!(met > 2000, "{met}");
     }
 }

@@ -26,7 +26,7 @@ use crate::Crossing;
 use crate::checker;
 use crate::crossing::Crossings;
 use crate::near::{Near, stepped};
-use crate::primitive::{Cell, Contact, Primitive};
+use crate::primitive::{Contact, Primitive, Square};
 use lancer_math::{Bounds, Point, Ray, Vector, unit};
 use lancer_scene::{Checker, Torus};
 
@@ -212,8 +212,11 @@ impl Primitive for Ring {
         };
         let (count, roots) = self.roots(&line);
         let mut crossings = Crossings::NONE;
+        // By whether the line meets it on both sides of the hole: where it stands in front of
+        // itself that changes.
+        let part = u32::from(count > 2);
         for root in &roots[..count] {
-            crossings.add(near.t(root / length), 0);
+            crossings.add(near.t(root / length), part);
         }
         crossings
     }
@@ -240,14 +243,17 @@ impl Primitive for Ring {
         }
     }
 
-    fn cell(&self, contact: &Contact, _part: u32, checker: &Checker) -> Cell {
+    fn square(&self, contact: &Contact, _part: u32, checker: &Checker) -> Square {
         let at = self.frame.local(&(contact.point - self.centre));
         let across = (at.x * at.x + at.y * at.y).sqrt();
         let off = across - self.ring;
         let angle = checker.angle.get();
         let slack =
             [across, self.tube].map(|radius| checker::slack_around(contact.error, radius, angle));
-        checker::cell([checker::turn(at.x, at.y) / angle, checker::turn(off, at.z) / angle], slack)
+        checker::square(
+            [checker::turn(at.x, at.y) / angle, checker::turn(off, at.z) / angle],
+            slack,
+        )
     }
 
     fn bounds(&self) -> Option<Bounds> {
@@ -274,6 +280,7 @@ mod tests {
         ray, ray_to, times, ts, worst_error,
     };
     use super::*;
+    use crate::primitive::Cell;
     use fastrand::Rng;
     use lancer_scene::{Colour, Direction, Length, Position};
 
@@ -535,7 +542,7 @@ mod tests {
         ] {
             let from = ray([9.0 * x, 9.0 * y, z], [-x, -y, 0.0]);
             let contact = shape.contact(&from, &shape.nearest(&from, 100.0).unwrap());
-            assert_eq!(shape.cell(&contact, 0, &checker), expected, "{x} {y} {z}");
+            assert_eq!(shape.square(&contact, 0, &checker).cell, expected, "{x} {y} {z}");
         }
     }
 

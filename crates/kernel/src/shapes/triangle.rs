@@ -5,7 +5,7 @@ use super::exact::{cross, tamed};
 use super::flat::Patch;
 use crate::Crossing;
 use crate::crossing::Crossings;
-use crate::primitive::{Cell, Contact, Primitive};
+use crate::primitive::{Contact, Primitive, Square};
 use lancer_math::{Bounds, Point, Ray, Vector, unit};
 use lancer_scene::{Checker, Triangle};
 
@@ -64,8 +64,8 @@ impl Primitive for Facet {
         Contact { point, error, normal, shading: normal }
     }
 
-    fn cell(&self, contact: &Contact, _part: u32, checker: &Checker) -> Cell {
-        self.patch.cell(contact, checker)
+    fn square(&self, contact: &Contact, _part: u32, checker: &Checker) -> Square {
+        self.patch.square(contact, checker)
     }
 
     fn bounds(&self) -> Option<Bounds> {

@@ -7,7 +7,8 @@ mod polyhedron;
 mod sphere;
 mod torus;
 
-use crate::{Crossing, Crossings, Line, Place, Space, Triple};
+use crate::crossing::Found;
+use crate::{Crossing, Crossings, Line, Number, Passage, Place, Space, Triple};
 use lancer_scene::Geometry;
 
 /// All places where `line` meets the boundary of a shape that stands in `space`,
@@ -25,19 +26,7 @@ pub fn crossings(geometry: &Geometry, space: &Space, line: &Line, bits: usize) -
         return Crossings { list: vec![], margin: 0.0 };
     }
     let local = space.line(line);
-    let found = match geometry {
-        Geometry::Sphere(sphere) => sphere::meet(sphere, space, &local, bits),
-        Geometry::Plane(plane) => flat::meet_plane(plane, space, &local, bits),
-        Geometry::Disc(disc) => flat::meet_disc(disc, space, &local, bits),
-        Geometry::Rectangle(rectangle) => flat::meet_rectangle(rectangle, space, &local, bits),
-        Geometry::Triangle(triangle) => flat::meet_triangle(triangle, space, &local, bits),
-        Geometry::Cuboid(cuboid) => polyhedron::meet_cuboid(cuboid, space, &local, bits),
-        Geometry::Tetrahedron(solid) => polyhedron::meet_tetrahedron(solid, space, &local, bits),
-        Geometry::Cone(cone) => cone::meet(cone, space, &local, bits),
-        Geometry::Torus(torus) => torus::meet(torus, space, &local, bits),
-        Geometry::Mesh(mesh) => mesh::meet(mesh, space, &local, bits),
-        Geometry::Custom(custom) => panic!("{} is the user's own shape", custom.name()),
-    };
+    let found = meet(geometry, space, &local, bits);
     let outside = |normal: &Triple| {
         let normal = space.normal(&normal.rounded(2 * bits));
         normal.rounded(2 * bits).unit(bits)
@@ -56,6 +45,45 @@ pub fn crossings(geometry: &Geometry, space: &Space, line: &Line, bits: usize) -
         }
     });
     Crossings { list: list.collect(), margin: found.margin }
+}
+
+/// The same, but only where on the line those places are and which way it passes there,
+/// which is had sooner.
+///
+/// # Panics
+/// For [`Geometry::Custom`], of which nothing is known.
+#[must_use]
+pub fn passages(
+    geometry: &Geometry,
+    space: &Space,
+    line: &Line,
+    bits: usize,
+) -> Vec<(Number, Passage)> {
+    if line.direction.is_zero() {
+        return vec![];
+    }
+    let local = space.line(line);
+    let list = match geometry {
+        Geometry::Torus(torus) => torus::list(torus, space, &local, bits),
+        other => meet(other, space, &local, bits).list,
+    };
+    list.into_iter().map(|local| (local.t, local.passage)).collect()
+}
+
+fn meet(geometry: &Geometry, space: &Space, local: &Line, bits: usize) -> Found {
+    match geometry {
+        Geometry::Sphere(sphere) => sphere::meet(sphere, space, local, bits),
+        Geometry::Plane(plane) => flat::meet_plane(plane, space, local, bits),
+        Geometry::Disc(disc) => flat::meet_disc(disc, space, local, bits),
+        Geometry::Rectangle(rectangle) => flat::meet_rectangle(rectangle, space, local, bits),
+        Geometry::Triangle(triangle) => flat::meet_triangle(triangle, space, local, bits),
+        Geometry::Cuboid(cuboid) => polyhedron::meet_cuboid(cuboid, space, local, bits),
+        Geometry::Tetrahedron(solid) => polyhedron::meet_tetrahedron(solid, space, local, bits),
+        Geometry::Cone(cone) => cone::meet(cone, space, local, bits),
+        Geometry::Torus(torus) => torus::meet(torus, space, local, bits),
+        Geometry::Mesh(mesh) => mesh::meet(mesh, space, local, bits),
+        Geometry::Custom(custom) => panic!("{} is the user's own shape", custom.name()),
+    }
 }
 
 /// Where a point is with respect to a shape with an inside; `None` for one

@@ -60,10 +60,33 @@ impl Ring {
     }
 }
 
-pub(super) fn meet(torus: &Torus, space: &Space, line: &Line, bits: usize) -> Found {
+/// The ring, the line seen from its centre, and the ring's values along that.
+fn seen(torus: &Torus, space: &Space, line: &Line) -> (Ring, Line, Polynomial) {
     let ring = Ring::new(torus, space);
     let line = Line { origin: &line.origin - &ring.centre, direction: line.direction.clone() };
     let quartic = ring.along(&line);
+    (ring, line, quartic)
+}
+
+pub(super) fn meet(torus: &Torus, space: &Space, line: &Line, bits: usize) -> Found {
+    let (ring, line, quartic) = seen(torus, space, line);
+    // How deep the line dips in or how high it rises between crossings: values
+    // grow by about 8 ring^2 tube for each unit of length.
+    let tube_fourth = &ring.tube_squared * &ring.ring_squared * &ring.axis_squared;
+    let unit = Number::from(8) * tube_fourth;
+    let turns = quartic.derivative().roots(80);
+    let depths = turns.iter().map(|turn| ratio(&quartic.value(&turn.place), &unit));
+    let margin = depths.fold(f64::INFINITY, f64::min);
+    Found { list: crossed(&ring, &line, &quartic, bits), margin }
+}
+
+/// Without the margin.
+pub(super) fn list(torus: &Torus, space: &Space, line: &Line, bits: usize) -> Vec<Local> {
+    let (ring, line, quartic) = seen(torus, space, line);
+    crossed(&ring, &line, &quartic, bits)
+}
+
+fn crossed(ring: &Ring, line: &Line, quartic: &Polynomial, bits: usize) -> Vec<Local> {
     let list = quartic.roots(bits).into_iter().map(|root| {
         let gradient = ring.gradient(&line.at(&root.place));
         // Where a tube as wide as the ring closes the hole it has no normal.
@@ -76,14 +99,7 @@ pub(super) fn meet(torus: &Torus, space: &Space, line: &Line, bits: usize) -> Fo
         let t = root.place;
         Local { t, normal, shading_normal: None, passage, face: 0, seam: f64::INFINITY }
     });
-    let list = list.collect();
-    // How deep the line dips in or how high it rises between crossings: values
-    // grow by about 8 ring^2 tube for each unit of length.
-    let tube_fourth = &ring.tube_squared * &ring.ring_squared * &ring.axis_squared;
-    let unit = Number::from(8) * tube_fourth;
-    let turns = quartic.derivative().roots(80);
-    let depths = turns.iter().map(|turn| ratio(&quartic.value(&turn.place), &unit));
-    Found { list, margin: depths.fold(f64::INFINITY, f64::min) }
+    list.collect()
 }
 
 pub(super) fn place(torus: &Torus, space: &Space, p: &Triple) -> Place {

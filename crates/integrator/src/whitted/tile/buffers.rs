@@ -1,4 +1,4 @@
-//! What a tile's rays carry.
+//! What a batch's rays carry.
 
 use crate::rows::{BATCH, Row, Triples, ZEROS};
 use lancer_kernel::lanes::MOST;
@@ -13,7 +13,7 @@ pub(super) struct Bundle {
     pub(super) direction: Triples,
     /// How much of what they see is in the pixel.
     pub(super) share: Triples,
-    /// The place of that pixel in the tile.
+    /// The number of that pixel, or sample, in the batch.
     pub(super) pixel: [u16; BATCH + MOST],
     pub(super) t: Row,
     /// The items that they leave the outside of; -1 where they do not.
@@ -99,7 +99,13 @@ pub(super) struct Sights {
     pub(super) is_smooth: bool,
     pub(super) shading: Triples,
     pub(super) albedo: Triples,
+    /// Where signatures are asked for, as [`Spot`](crate::whitted::signature::Spot) has them.
+    pub(super) lit: Row,
+    pub(super) piece: Signatures,
 }
+
+/// A hash for each ray.
+pub(super) type Signatures = [u64; BATCH + MOST];
 
 impl Sights {
     pub(super) const fn new() -> Self {
@@ -110,6 +116,8 @@ impl Sights {
             is_smooth: false,
             shading: Triples::ZEROS,
             albedo: Triples::ZEROS,
+            lit: ZEROS,
+            piece: [0; BATCH + MOST],
         }
     }
 }
@@ -123,7 +131,7 @@ pub(super) struct Hiding {
     pub(super) is_clear: bool,
 }
 
-/// All that a tile needs, kept by each thread from tile to tile.
+/// All that a batch needs, kept by each thread from one to the next.
 pub(super) struct Buffers {
     // Boxed, to be swapped.
     pub(super) rays: Box<Bundle>,
@@ -134,6 +142,7 @@ pub(super) struct Buffers {
     /// What may stand between those and each light.
     pub(super) hiding: Vec<Hiding>,
     pub(super) radiance: Triples,
+    pub(super) signatures: Signatures,
     /// The rays in the order of what they met.
     pub(super) order: [u16; BATCH + MOST],
     /// What they met, and how many of them.
@@ -150,6 +159,7 @@ impl Buffers {
             sights: Sights::new(),
             hiding: Vec::new(),
             radiance: Triples::ZEROS,
+            signatures: [0; BATCH + MOST],
             order: [0; BATCH + MOST],
             items: Vec::with_capacity(BATCH),
             slots: [0; BATCH + MOST],

@@ -1,10 +1,12 @@
 //! The light of lamps, spots and suns that falls on the points of a batch.
 
 use super::buffers::{Buffers, Hiding};
+use super::places::Places;
 use super::shade::Around;
-use super::{Tile, dot};
+use super::{Batch, dot};
 use crate::whitted::lights::{From, Source};
 use crate::whitted::media::Media;
+use crate::whitted::signature::{Signing, Spot};
 use lancer_kernel::lanes::{Lanes, MOST, Mask, Real, Vectors, lanes_of};
 use lancer_kernel::{Candidates, Goal, Rays, Which};
 use lancer_math::Vector;
@@ -23,7 +25,7 @@ struct Lit<L: Lanes> {
     origin: Vectors<L::Real>,
 }
 
-impl Tile<'_> {
+impl<P: Places> Batch<'_, P> {
     /// Adds what light makes of the matte part of what the group sees, whose share is `matte`:
     /// the radiance of a white surface is what each lane computes as
     /// [`Lights::gather`](crate::whitted::lights::Lights::gather) does.
@@ -54,8 +56,12 @@ impl Tile<'_> {
             let origin = point + facet * (lanes.load(&sights.error[at..]) * 2.0);
             let lit = Lit { at, matter, point, facet, shading, origin };
             let mut light = Vectors::splat(lanes, &Vector::zeros());
+            let mut marks = lanes.load(&sights.lit[at..]);
             for (index, source) in sources.iter().enumerate() {
-                self.shine(lanes, (source, index), &lit, is_grey, &mut light);
+                self.shine(lanes, (source, index), &lit, is_grey, (&mut light, &mut marks));
+            }
+            if P::Signing::SIGNED {
+                marks.store(&mut self.buffers.sights.lit[at..]);
             }
             if is_grey {
                 (light.y, light.z) = (light.x, light.x);
@@ -83,7 +89,7 @@ impl Tile<'_> {
     #[inline(always)]
     fn is_in_order(&self) -> bool {
         let group = &self.buffers.group;
-        group.count == self.window.pixels() as usize
+        group.count == self.places.count()
             && group.pixel[..group.count].iter().zip(0..).fold(true, |all, (p, k)| all & (*p == k))
     }
 
@@ -110,7 +116,8 @@ impl Tile<'_> {
         }
     }
 
-    /// Adds the light of one source, all of it to the first colour if it is grey.
+    /// Adds the light of one source, all of it to the first colour if it is grey, and where it
+    /// arrives its marks.
     #[inline(always)]
     fn shine<L: Lanes>(
         &mut self,
@@ -118,7 +125,7 @@ impl Tile<'_> {
         (source, index): (&Source, usize),
         lit: &Lit<L>,
         is_grey: bool,
-        light: &mut Vectors<L::Real>,
+        (light, marks): (&mut Vectors<L::Real>, &mut L::Real),
     ) {
         let zero = lanes.splat(0.0);
         let (way, squared, t_max) = match &source.place {
@@ -142,18 +149,23 @@ impl Tile<'_> {
             Falloff::Square => bright / (squared * distance),
             Falloff::None => bright / distance,
         };
+        let mut mark = lanes.splat(source.marks[0]);
         if let Some(beam) = &source.beam {
             let mut shares = [0.0; MOST];
             for k in lanes_of(asked.bits()) {
                 shares[k] = beam.share(&(way.lane(k) / -distance.lane(k)));
             }
-            strength = strength * lanes.load(&shares);
+            let shares = lanes.load(&shares);
+            strength = strength * shares;
+            let all = shares.eq(lanes.splat(1.0));
+            mark = all.select(mark, lanes.splat(source.marks[1]));
         }
         let asked = asked & !strength.eq(zero);
         self.counts.shadow += u64::from(asked.bits().count_ones());
         let Hiding { among, outside, is_clear } = &self.buffers.hiding[index];
         if is_grey && *is_clear {
             light.x = asked.select(light.x + strength, light.x);
+            *marks = asked.select(*marks + mark, *marks);
             return;
         }
         let direction = match &source.place {
@@ -166,14 +178,21 @@ impl Tile<'_> {
         let arrives = asked & !hidden;
         if is_grey {
             light.x = arrives.select(light.x + strength, light.x);
+            *marks = arrives.select(*marks + mark, *marks);
             return;
         }
         let mut more = [[0.0; MOST]; 3];
+        let mut some = 0;
         for k in lanes_of(arrives.bits()) {
-            let place = super::Places::place(&self.window, self.buffers.group.pixel[lit.at + k]);
-            let (ray, media) = (rays.lane(k), Media::default());
-            let through =
-                self.tracer.lights.through(prepared, &ray, t_max, &media, self.counts, place);
+            let pixel = self.places.pixel(self.buffers.group.pixel[lit.at + k]);
+            let (ray, media, mut spot) = (rays.lane(k), Media::default(), Spot::default());
+            let (on, to) = ((&ray, t_max), (&mut spot, &mut *self.counts));
+            let through = self.tracer.lights.through::<P::Signing>(prepared, on, &media, to, pixel);
+            if P::Signing::SIGNED && through != [0.0; 3] {
+                some |= 1 << k;
+                let piece = &mut self.buffers.sights.piece[lit.at + k];
+                *piece = piece.wrapping_add(spot.piece);
+            }
             for (more, through) in more.iter_mut().zip(through) {
                 // Nothing of something infinite is nothing.
                 if through != 0.0 {
@@ -182,5 +201,6 @@ impl Tile<'_> {
             }
         }
         *light = *light + Vectors::load(lanes, more.each_ref().map(|more| &more[..]));
+        *marks = lanes.mask(some).select(*marks + mark, *marks);
     }
 }

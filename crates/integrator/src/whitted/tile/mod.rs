@@ -1,40 +1,42 @@
-//! A tile's rays in stages, several at once: from the eye, then from mirror to
-//! mirror until nothing that matters is left.
+//! The rays of a tile's pixels, or of samples, in stages, several at once: from the eye,
+//! then from mirror to mirror until nothing that matters is left.
 //!
-//! At each depth all rays of the tile are met with the shapes, sorted by what they
+//! At each depth all rays of the batch are met with the shapes, sorted by what they
 //! met, and shaded item by item; what a mirror throws back is the next depth. A
 //! pixel has one ray at most at a time, so its sums have the order that they have
-//! when the pixel is followed alone, and the same bits. A ray that meets a transparent
+//! when the pixel is followed alone, and the same bits; and likewise a sample. A ray that meets a transparent
 //! surface is followed alone from there on.
 
 mod buffers;
 mod light;
+mod places;
 mod shade;
 mod units;
 
 pub(super) use units::units;
 
+use super::signature::{MIRRORED, Signing, Way};
 use super::tracer::{DEEPEST, Kind, WhittedTracer};
 use crate::enclose::{cone, extent};
 use crate::rows::Triples;
-use crate::{RayCounts, Rgb};
-use buffers::{Buffers, Bundle};
+use crate::{RayCounts, Rgb, Sample, Seen};
+use buffers::{Buffers, Bundle, Signatures};
 use lancer_film::Window;
 use lancer_kernel::Candidates;
 use lancer_kernel::Rays;
-use lancer_kernel::lanes::{Lanes, MOST, Mask, Real, Vectors, Work, dispatch};
+use lancer_kernel::lanes::{Lanes, Mask, Real, Vectors, Work, dispatch};
 use lancer_math::{Bounds, Point, Vector};
+use places::{Pixels, Places, Samples};
 use std::cell::Cell;
 
 thread_local! {
     static BUFFERS: Cell<Option<Box<Buffers>>> = const { Cell::new(None) };
 }
 
-/// A tile to be rendered.
-struct Tile<'a> {
+/// Places to be seen.
+struct Batch<'a, P> {
     tracer: &'a WhittedTracer,
-    window: Window,
-    pixels: &'a mut [Rgb],
+    places: P,
     counts: &'a mut RayCounts,
     buffers: &'a mut Buffers,
 }
@@ -42,16 +44,25 @@ struct Tile<'a> {
 impl WhittedTracer {
     /// The colours of the pixels of a tile, which is no larger than
     /// [`TILE_SIDE`](crate::TILE_SIDE) squared.
-    pub(super) fn stages(&self, window: Window, pixels: &mut [Rgb], counts: &mut RayCounts) {
+    pub(super) fn pixels(&self, window: Window, colours: &mut [Rgb], counts: &mut RayCounts) {
+        self.stages(Pixels { window, colours }, counts);
+    }
+
+    /// What samples see, which are no more than [`MOST_SAMPLES`](crate::MOST_SAMPLES).
+    pub(super) fn samples(&self, samples: &[Sample], seen: &mut [Seen], counts: &mut RayCounts) {
+        self.stages(Samples { samples, seen }, counts);
+    }
+
+    fn stages(&self, places: impl Places, counts: &mut RayCounts) {
         // Taken, since a shape of the user's own may render a picture to answer.
         let mut buffers = BUFFERS.take().unwrap_or_else(Buffers::new);
-        let tile = Tile { tracer: self, window, pixels, counts, buffers: &mut buffers };
-        dispatch(self.kernel.lanes, tile);
+        let batch = Batch { tracer: self, places, counts, buffers: &mut buffers };
+        dispatch(self.kernel.lanes, batch);
         BUFFERS.set(Some(buffers));
     }
 }
 
-impl Work for Tile<'_> {
+impl<P: Places> Work for Batch<'_, P> {
     type Output = ();
 
     #[inline(always)]
@@ -60,6 +71,7 @@ impl Work for Tile<'_> {
         let mut among = if self.culls_tiles() { among } else { Candidates::ALL };
         let mut kind = Kind::Primary;
         let mut depth = 0;
+        let mut way = Way::EYE;
         while self.buffers.rays.count > 0 {
             if self.meet(lanes, &among, depth) {
                 self.buffers.all_alike();
@@ -67,7 +79,7 @@ impl Work for Tile<'_> {
                 self.buffers.sort();
             }
             self.buffers.next.count = 0;
-            self.shade_all(lanes, depth, kind);
+            self.shade_all(lanes, (depth, kind, way));
             std::mem::swap(&mut self.buffers.rays, &mut self.buffers.next);
             self.buffers.rays.pad();
             if self.culls_tiles() && self.buffers.rays.count > 0 {
@@ -75,42 +87,31 @@ impl Work for Tile<'_> {
             }
             kind = Kind::Reflected;
             depth += 1;
+            way = way.then(MIRRORED);
         }
         self.end();
     }
 }
 
-impl Tile<'_> {
-    /// The rays of the pixels, and what they may meet.
+impl<P: Places> Batch<'_, P> {
+    /// The rays of the places, and what they may meet.
     #[inline(always)]
     fn begin<L: Lanes>(&mut self, lanes: L) -> Candidates {
-        let Window { x, y, width, height, .. } = self.window;
         let view = &self.tracer.view;
-        let Buffers { rays, radiance, .. } = &mut *self.buffers;
-        rays.count = (width * height) as usize;
-        let steps: [f64; MOST] = std::array::from_fn(|k| k as f64);
-        let steps = lanes.load(&steps);
-        for row in 0..height {
-            let at_y = lanes.splat(f64::from(y + row) + 0.5);
-            for column in (0..width).step_by(L::WIDTH) {
-                // The last ones of a row are overwritten by the next row.
-                let at_x = steps + (f64::from(x + column) + 0.5);
-                let (origin, direction) = view.rays(lanes, at_x, at_y);
-                let at = (row * width + column) as usize;
-                rays.origin.store(lanes, at, &origin);
-                rays.direction.store(lanes, at, &direction);
-            }
-        }
+        let Buffers { rays, radiance, signatures, .. } = &mut *self.buffers;
+        rays.count = self.places.count();
+        let [left, top, right, bottom] = self.places.rays(lanes, view, rays);
         for k in 0..rays.count {
             rays.pixel[k] = k as u16;
         }
         rays.share.0.iter_mut().for_each(|share| share[..rays.count].fill(1.0));
         radiance.0.iter_mut().for_each(|radiance| radiance[..rays.count].fill(0.0));
+        if P::Signing::SIGNED {
+            signatures[..rays.count].fill(0);
+        }
         rays.pad();
 
         let Some(eye) = view.eye() else { return Candidates::ALL };
-        let (left, top) = (f64::from(x), f64::from(y));
-        let (right, bottom) = (left + f64::from(width), top + f64::from(height));
         let corners = [(left, top), (right, top), (left, bottom), (right, bottom)]
             .map(|(x, y)| view.ray(x, y).direction);
         let Some(axis) = lancer_math::unit(corners.iter().sum::<Vector>()) else {
@@ -159,7 +160,7 @@ impl Tile<'_> {
 
     /// Shades all rays, those that met the same item together.
     #[inline(always)]
-    fn shade_all<L: Lanes>(&mut self, lanes: L, depth: u32, kind: Kind) {
+    fn shade_all<L: Lanes>(&mut self, lanes: L, (depth, kind, way): (u32, Kind, Way)) {
         let mut begin = 0;
         for index in 0..self.buffers.items.len() {
             let (item, count) = self.buffers.items[index];
@@ -172,12 +173,12 @@ impl Tile<'_> {
                 group.gather(rays, &order[begin..end]);
             }
             if item < 0.0 {
-                self.miss(kind);
+                self.miss(kind, way);
             } else if self.tracer.prepared.surface(item as u32).is_transparent() {
-                self.follow_alone(depth, kind);
+                self.follow_alone(depth, kind, way);
             } else {
                 self.count(kind);
-                self.shade(lanes, item as u32, depth);
+                self.shade(lanes, item as u32, depth, way);
             }
             begin = end;
         }
@@ -193,8 +194,13 @@ impl Tile<'_> {
     }
 
     /// Rays that see the background.
-    fn miss(&mut self, kind: Kind) {
+    fn miss(&mut self, kind: Kind, way: Way) {
         self.count(kind);
+        if P::Signing::SIGNED {
+            let ray = way.meets(None).at(0.0, 0);
+            let Buffers { group, signatures, .. } = &mut *self.buffers;
+            group.pixel[..group.count].iter().for_each(|pixel| sign(signatures, *pixel, ray));
+        }
         let Buffers { group, radiance, .. } = &mut *self.buffers;
         for k in 0..group.count {
             add(radiance, group.pixel[k], group.share(k), self.tracer.background);
@@ -202,18 +208,19 @@ impl Tile<'_> {
     }
 
     /// Rays whose pixels are followed alone from here on.
-    fn follow_alone(&mut self, depth: u32, kind: Kind) {
-        let Buffers { group, radiance, .. } = &mut *self.buffers;
+    fn follow_alone(&mut self, depth: u32, kind: Kind, way: Way) {
+        let Buffers { group, radiance, signatures, .. } = &mut *self.buffers;
         for k in 0..group.count {
             let pixel = group.pixel[k];
-            let place = self.window.place(pixel);
+            let signature = &mut signatures[usize::from(pixel)];
             let sum = [0, 1, 2].map(|i| radiance.0[i][usize::from(pixel)]);
-            let sum = self.tracer.go_on(
+            let (sum, signed) = self.tracer.go_on::<P::Signing>(
                 (group.ray(k), group.share(k), depth, kind),
-                sum,
-                place,
+                (way, (sum, *signature)),
+                self.places.pixel(pixel),
                 self.counts,
             );
+            *signature = signed;
             (0..3).for_each(|i| radiance.0[i][usize::from(pixel)] = sum[i]);
         }
     }
@@ -265,43 +272,29 @@ impl Tile<'_> {
     #[cold]
     fn give_up(&mut self, bits: u32, at: usize) {
         for k in lancer_kernel::lanes::lanes_of(bits) {
-            let place = self.window.place(self.buffers.group.pixel[at + k]);
-            self.counts.troubles.given_up.at(place);
+            let pixel = self.places.pixel(self.buffers.group.pixel[at + k]);
+            self.counts.troubles.given_up.at(pixel);
         }
     }
 
-    /// The pixels' colours.
+    /// What the places see.
     fn end(&mut self) {
-        let radiance = &self.buffers.radiance;
+        let Buffers { radiance, signatures, .. } = &*self.buffers;
         let [red, green, blue] = &radiance.0;
-        let mut all_finite = true;
-        for (((pixel, red), green), blue) in self.pixels.iter_mut().zip(red).zip(green).zip(blue) {
-            *pixel = [*red as f32, *green as f32, *blue as f32];
-            // Nothing times what is infinite or not a number is not a number.
-            all_finite &= (pixel[0] + pixel[1] + pixel[2]) * 0.0 == 0.0;
-        }
-        if all_finite {
-            return;
-        }
-        for (k, pixel) in (0..).zip(self.pixels.iter_mut()) {
-            if !pixel.iter().all(|v| v.is_finite()) {
-                self.counts.troubles.not_finite.at(self.window.place(k));
-                *pixel = [0.0; 3];
-            }
-        }
+        let colours = red.iter().zip(green).zip(blue);
+        let colours = colours.map(
+            #[inline(always)]
+            |((red, green), blue)| [*red as f32, *green as f32, *blue as f32],
+        );
+        self.places.keep(colours.zip(signatures.iter().copied()), self.counts);
     }
 }
 
-/// Where a pixel of a tile is in the frame.
-trait Places {
-    fn place(&self, pixel: u16) -> (u32, u32);
-}
-
-impl Places for Window {
-    fn place(&self, pixel: u16) -> (u32, u32) {
-        let pixel = u32::from(pixel);
-        (self.x + pixel % self.width, self.y + pixel / self.width)
-    }
+/// Adds to the signature of a place what a ray adds.
+#[inline(always)]
+fn sign(signatures: &mut Signatures, pixel: u16, ray: u64) {
+    let signature = &mut signatures[usize::from(pixel)];
+    *signature = signature.wrapping_add(ray);
 }
 
 /// Adds to a pixel what is seen with a share.

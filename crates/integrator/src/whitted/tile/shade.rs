@@ -2,10 +2,12 @@
 //! mirror throws back.
 
 use super::buffers::Buffers;
+use super::places::Places;
 use super::units::units;
-use super::{Tile, ball_around, dot};
+use super::{Batch, ball_around, dot};
 use crate::enclose::extent;
 use crate::rows::Triples;
+use crate::whitted::signature::{self, Meeting, Signing, Spot, Way};
 use lancer_kernel::lanes::{Lanes, Mask, Real, Vectors, lanes_of, larger};
 use lancer_kernel::{ListedShape, Rays};
 use lancer_math::{Bounds, Point, Vector};
@@ -31,10 +33,10 @@ impl Around {
     }
 }
 
-impl Tile<'_> {
+impl<P: Places> Batch<'_, P> {
     /// The rays of the group, which all met that item.
     #[inline(always)]
-    pub(super) fn shade<L: Lanes>(&mut self, lanes: L, item: u32, depth: u32) {
+    pub(super) fn shade<L: Lanes>(&mut self, lanes: L, item: u32, depth: u32, way: Way) {
         let tracer = self.tracer;
         let surface = tracer.prepared.surface(item);
         let (gloss, emission) = (surface.gloss.get(), surface.emission.get());
@@ -51,8 +53,21 @@ impl Tile<'_> {
         if gloss < 1.0 || !self.tracer.kernel.culling.full_mirrors {
             self.gather(lanes, 1.0 - gloss, item, &around);
         }
+        if P::Signing::SIGNED {
+            self.sign(way.meets(Some(item)));
+        }
         if gloss > 0.0 {
             self.mirror(lanes, gloss, depth, around.outside);
+        }
+    }
+
+    /// Adds where the rays of the group met their item.
+    #[inline(always)]
+    fn sign(&mut self, meeting: Meeting) {
+        let Buffers { group, sights, signatures, .. } = &mut *self.buffers;
+        let spots = sights.lit.iter().zip(&sights.piece);
+        for (&pixel, (&lit, &piece)) in group.pixel[..group.count].iter().zip(spots) {
+            super::sign(signatures, pixel, meeting.at(lit, piece));
         }
     }
 
@@ -66,6 +81,9 @@ impl Tile<'_> {
             prepared.albedos(item).map(|albedo| Vectors::splat(lanes, &Vector::from(albedo)));
         let Buffers { group, sights, .. } = &mut *self.buffers;
         sights.is_smooth = false;
+        if P::Signing::SIGNED {
+            sights.piece[..group.count].fill(0);
+        }
         let mut largest = lanes.splat(0.0);
         let (mut behind, mut before) = (lanes.mask(0), lanes.mask(0));
         for at in (0..group.count).step_by(L::WIDTH) {
@@ -83,6 +101,10 @@ impl Tile<'_> {
             sights.point.store(lanes, at, &point);
             points.error.store(&mut sights.error[at..]);
             sights.facet.store(lanes, at, &facet);
+            if P::Signing::SIGNED {
+                let lit = from_behind.select(lanes.splat(signature::BEHIND), lanes.splat(0.0));
+                lit.store(&mut sights.lit[at..]);
+            }
 
             let Pattern::Checker(checker) = pattern else {
                 sights.albedo.store(lanes, at, &first);
@@ -91,10 +113,18 @@ impl Tile<'_> {
             let cells = shape.cells(lanes, &points, &checker);
             let albedo = Vectors::select(cells.second, second, first);
             sights.albedo.store(lanes, at, &albedo);
+            if P::Signing::SIGNED {
+                signature::in_cell(lanes.load(&sights.lit[at..]), cells.index)
+                    .store(&mut sights.lit[at..]);
+            }
             let asked = lanes.first(group.count - at) & !cells.certain;
             for k in lanes_of(asked.bits()) {
                 let seen = prepared.expand(&group.ray(at + k), &group.hit(at + k));
                 (0..3).for_each(|i| sights.albedo.0[i][at + k] = seen.albedo[i]);
+                if P::Signing::SIGNED {
+                    let from_behind = from_behind.bits() >> k & 1 == 1;
+                    sights.lit[at + k] = Spot::new(prepared, &seen, from_behind).lit;
+                }
             }
         }
         let bounds = extent(lanes, &sights.point, 0..group.count);
@@ -128,6 +158,10 @@ impl Tile<'_> {
             put(&mut sights.shading, k, &side(seen.shading));
             put(&mut sights.albedo, k, &Vector::from(seen.albedo));
             sights.error[k] = seen.error;
+            if P::Signing::SIGNED {
+                let spot = Spot::new(prepared, &seen, from_behind);
+                (sights.lit[k], sights.piece[k]) = (spot.lit, spot.piece);
+            }
             bounds = bounds.with(seen.point);
             error = error.max(seen.error);
         }

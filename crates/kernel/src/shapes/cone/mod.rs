@@ -26,23 +26,20 @@
 //! that of the side which the ray comes towards, so that it is as bright as what is
 //! around it. A ray through the apex alone touches: its two crossings are one.
 
+use super::clip::kept_in;
 use super::exact::difference_of_products;
 use super::frame::{Frame, across};
 use crate::Crossing;
 use crate::checker;
 use crate::crossing::Crossings;
 use crate::near::{Near, stepped};
-use crate::primitive::{Cell, Contact, Primitive};
+use crate::primitive::{Contact, Primitive, Square};
 use lancer_math::{Bounds, Point, Ray, Vector, unit};
 use lancer_scene::{Checker, Cone};
 
 const SIDE: u32 = 0;
 const BASE: u32 = 1;
 const TOP: u32 = 2;
-
-/// A line passes the narrow end closely if it is so many times nearer to it than
-/// the ray's origin.
-const NARROW: f64 = 16.0;
 
 #[derive(Debug)]
 pub(crate) struct Barrel {
@@ -62,6 +59,7 @@ pub(crate) struct Barrel {
     lids: [u32; 2],
     /// Its length and its larger radius.
     size: f64,
+    bounds: Bounds,
     open: bool,
 }
 
@@ -88,17 +86,46 @@ impl Barrel {
         if radii[0] == 0.0 {
             lids[0] = SIDE;
         }
+        let narrow = if narrows { top } else { base };
+        let axis = if narrows { -frame.axis } else { frame.axis };
+        let size = length + radii[1];
+        // Around the circles of both lids.
+        let circle = |centre: Point, radius: f64| {
+            Bounds { min: centre, max: centre }.grown(across(&axis) * radius)
+        };
+        let around = circle(narrow, radii[0]).union(circle(narrow + axis * length, radii[1]));
+        let slack = 8.0 * f64::EPSILON * (narrow.coords.amax() + size);
         Self {
             base,
-            narrow: if narrows { top } else { base },
+            narrow,
             frame,
-            axis: if narrows { -frame.axis } else { frame.axis },
+            axis,
             length,
             radii,
             slope: (radii[1] - radii[0]) / length,
             lids,
-            size: length + radii[1],
+            size,
+            bounds: around.grown(Vector::repeat(slack)),
             open: cone.open,
+        }
+    }
+
+    /// The ray from where it is nearest to the narrow end, or from its origin if that is no
+    /// more than twice as far: then, where it meets the shape, the origin is within some
+    /// sizes of it.
+    ///
+    /// A rounding of an origin R away moves b and c by as many of R^2 as of the squared
+    /// distance r at which the side is met, and its normal distance by R / r of
+    /// that. So what counts is how much farther the origin is than the narrow end from the
+    /// place, and not whether it is far as against the size.
+    #[inline]
+    fn near(&self, ray: &Ray) -> Near {
+        let near = Near::new(ray, &self.narrow);
+        let origin = ray.origin - self.narrow;
+        if 2.0 * near.origin.amax() < origin.amax() {
+            near
+        } else {
+            Near { origin, shift: 0.0, ..near }
         }
     }
 
@@ -193,14 +220,7 @@ impl Barrel {
 impl Primitive for Barrel {
     #[inline]
     fn crossings(&self, ray: &Ray) -> Crossings {
-        // Past the apex or a narrow end what matters is small against the distance of
-        // an origin that is near the shape, too.
-        let near = Near::new(ray, &self.narrow);
-        let near = if NARROW * near.origin.amax() < (ray.origin - self.narrow).amax() {
-            near
-        } else {
-            Near::around(ray, &self.narrow, self.size)
-        };
+        let near = self.near(ray);
         let local = |v: &Vector| {
             Vector::new(self.frame.first.dot(v), self.frame.second.dot(v), self.axis.dot(v))
         };
@@ -218,9 +238,12 @@ impl Primitive for Barrel {
             to = End { t: second, part: SIDE };
         }
         if from.t <= to.t && from.t > f64::NEG_INFINITY && to.t < f64::INFINITY {
-            for end in [from, to] {
+            // Where the side is nearly a lid, a rounding along the axis is many across it.
+            let ends = [from, to].map(|end| near.t(end.t));
+            let Some(ends) = kept_in(&self.bounds, ray, ends) else { return crossings };
+            for (t, end) in ends.into_iter().zip([from, to]) {
                 if end.part == SIDE || !self.open {
-                    crossings.add(near.t(end.t), end.part);
+                    crossings.add(t, end.part);
                 }
             }
         }
@@ -268,7 +291,7 @@ impl Primitive for Barrel {
 
     /// The side by its height above the base and the angle, lids by the distance
     /// from their middle and the angle.
-    fn cell(&self, contact: &Contact, part: u32, checker: &Checker) -> Cell {
+    fn square(&self, contact: &Contact, part: u32, checker: &Checker) -> Square {
         let at = self.frame.local(&(contact.point - self.base));
         let across = (at.x * at.x + at.y * at.y).sqrt();
         let along = if part == SIDE { at.z } else { across };
@@ -276,17 +299,11 @@ impl Primitive for Barrel {
         let (length, angle) = (checker.length.get(), checker.angle.get());
         let slack = checker::slack(contact.error, length);
         let slack_around = checker::slack_around(contact.error, across, angle);
-        checker::cell([along / length, turn / angle], [slack, slack_around])
+        checker::square([along / length, turn / angle], [slack, slack_around])
     }
 
-    /// Around the circles of both lids.
     fn bounds(&self) -> Option<Bounds> {
-        let across = across(&self.axis);
-        let wide = self.narrow + self.axis * self.length;
-        let [narrow, wide] = [(self.narrow, self.radii[0]), (wide, self.radii[1])]
-            .map(|(centre, radius)| Bounds { min: centre, max: centre }.grown(across * radius));
-        let slack = 8.0 * f64::EPSILON * (self.narrow.coords.amax() + self.size);
-        Some(narrow.union(wide).grown(Vector::repeat(slack)))
+        Some(self.bounds)
     }
 
     fn contains(&self, point: &Point) -> bool {

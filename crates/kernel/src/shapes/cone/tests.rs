@@ -1,8 +1,9 @@
 use super::super::testing::{
-    Double, all, assert_sound, between, check_leaving, check_pairs, check_scaling, direction, dot,
-    ray, ray_to, ts, worst_error,
+    Double, Doubles, all, assert_sound, between, check_kept_in_box, check_leaving, check_pairs,
+    check_scaling, direction, dot, doubles, minus, ray, ray_to, times, ts, worst_error,
 };
 use super::*;
+use crate::primitive::Cell;
 use fastrand::Rng;
 use lancer_scene::{Colour, Position};
 
@@ -267,14 +268,18 @@ fn checkers_go_along_and_around() {
             let from = ray([9.0 * x, 9.0 * y, z], [-x, -y, 0.0]);
             let crossing = shape.nearest(&from, 100.0).unwrap();
             let contact = shape.contact(&from, &crossing);
-            assert_eq!(shape.cell(&contact, crossing.part, &checker), expected, "{x} {y} {z}");
+            assert_eq!(
+                shape.square(&contact, crossing.part, &checker).cell,
+                expected,
+                "{x} {y} {z}"
+            );
         }
         for (x, y, expected) in [(-0.01, 0.2, Cell::First), (-0.01, 0.8, Cell::Second)] {
             let from = ray([x, y, -9.0], [0.0, 0.0, 1.0]);
             let crossing = shape.nearest(&from, 100.0).unwrap();
             let contact = shape.contact(&from, &crossing);
             assert_eq!((contact.normal, crossing.part), (-Vector::z(), BASE));
-            assert_eq!(shape.cell(&contact, BASE, &checker), expected, "{x} {y}");
+            assert_eq!(shape.square(&contact, BASE, &checker).cell, expected, "{x} {y}");
         }
     }
 }
@@ -329,4 +334,93 @@ fn tangents_are_met_where_they_touch() {
         }
     }
     assert!(met > 1000, "{met}");
+}
+
+/// How far off crossings of the side are at most, against the side, in units in the last
+/// place of the lengths along the ray: the distance of the exact place, by Newton's
+/// method in arithmetic of twice the length.
+fn worst_crossing(given: &Cone, shape: &Barrel, rays: impl Iterator<Item = Ray>) -> (f64, usize) {
+    let axis = between(&given.top(), &given.base());
+    let length = dot(axis, axis).sqrt();
+    let [r, s] = [given.base_radius(), given.top_radius()].map(Double::from);
+    let slope = (s - r) / length;
+    let (mut worst, mut count) = (0.0_f64, 0);
+    for ray in rays {
+        let d = doubles(&ray.direction);
+        for crossing in all(shape, &ray).iter().filter(|crossing| crossing.part == SIDE) {
+            let t = Double::from(crossing.t);
+            let from_base = between(&ray.origin, &given.base());
+            let w: Doubles = std::array::from_fn(|i| from_base[i] + d[i] * t);
+            let z = dot(w, axis) / length;
+            let across = minus(w, times(axis, z / length));
+            let distance = dot(across, across).sqrt();
+            let off = (distance - (r + slope * z)) / (Double::from(1.0) + slope * slope).sqrt();
+            let reach = ray.origin.coords.norm() + crossing.t.abs() * ray.direction.norm();
+            let size = given.base().coords.norm() + shape.size;
+            worst = worst.max(off.0.abs() / ((reach + size) * f64::EPSILON));
+            count += 1;
+        }
+    }
+    (worst, count)
+}
+
+/// From up to a dozen sizes away, past the tip or the narrow end: what is lost in the
+/// distance must not be lost in the place.
+#[test]
+fn narrow_ends_are_met_where_they_are_from_afar() {
+    let base = [0.855_279_259_390_105_5, 0.397_230_597_990_113_4, -0.676_141_028_767_421_9];
+    let top = [35.281_075_622_808_01, -45.340_312_059_963_04, 31.968_616_761_185_306];
+    let steep = cone((base, 93.485_181_736_087_92), (top, 0.0), true);
+    // b cancels to a fiftieth of its terms.
+    let one = ray(
+        [-213.711_441_448_369_44, 218.125_728_847_180_27, 188.928_787_740_083_2],
+        [110.418_464_756_988_17, -103.031_883_026_682_15, -74.510_271_074_390_9],
+    );
+    let (worst, count) = worst_crossing(&steep.0, &steep.1, std::iter::once(one));
+    assert!(worst <= 1.0 && count == 1, "{worst}");
+    for (given, shape) in [
+        steep,
+        cone(([0.0; 3], 45.0), ([0.0, 39.0, 0.0], 0.0125), true),
+        cone(([1.0, 2.0, 3.0], 0.0), ([2.0, -1.0, 3.5], 0.7), false),
+        cone(([0.0; 3], 1.0), ([3.0, 1.0, 2.0], 1.0), false),
+    ] {
+        let mut rng = Rng::with_seed(21);
+        let rays = (0..100_000).map(|_| {
+            let beside = direction(&mut rng) * (shape.size * libm::exp10(-3.0 * rng.f64()));
+            let back = direction(&mut rng) * (shape.size * libm::exp10(2.0 * rng.f64() - 1.0));
+            Ray::new(shape.narrow + beside + back, -back * libm::exp10(rng.f64()))
+        });
+        let (worst, count) = worst_crossing(&given, &shape, rays);
+        assert!(worst <= 1.5 && count > 10_000, "{worst} of {count} {shape:?}");
+    }
+}
+
+/// A side that is nearly a lid ends where it crosses the other, which may be far beside
+/// the rim.
+#[test]
+fn flat_ones_end_in_their_box() {
+    for (base, top, radii) in [
+        (
+            [16.301_669_972_673_19, 3.224_443_685_715_265, -6.594_415_241_345_313],
+            [16.253_106_956_960_632, 3.264_139_674_486_240_8, -6.552_470_827_802_378],
+            [13.122_089_830_181_201, 92.556_540_115_552_68],
+        ),
+        ([0.0; 3], [1e-9, 2e-9, 1e-9], [1.0, 0.0]),
+        ([100.0, 0.0, 5.0], [100.0, 1e-4, 5.0], [0.5, 10.0]),
+    ] {
+        for open in [false, true] {
+            let (given, shape) = cone((base, radii[0]), (top, radii[1]), open);
+            let mut rng = Rng::with_seed(22);
+            let rays = (0..50_000).map(|_| {
+                let end = if radii[0] > radii[1] { given.base() } else { given.top() };
+                // Where the rim touches a face of the box.
+                let face = Vector::ith(rng.usize(0..3), 1.0);
+                let out = unit(face - shape.axis * shape.axis.dot(&face)).unwrap_or(face);
+                let out = if rng.bool() { out } else { -out };
+                ray_to(&mut rng, &(end + out * shape.radii[1]), shape.size)
+            });
+            let met = check_kept_in_box(&shape, rays);
+            assert!(met > 10_000, "{met} {shape:?}");
+        }
+    }
 }

@@ -13,7 +13,7 @@ use crate::checker;
 use crate::crossing::Crossings;
 use crate::hierarchy::{Hierarchy, Stack};
 use crate::lanes::{Eight, Lanes, Work, dispatch};
-use crate::primitive::{Cell, Contact, Primitive};
+use crate::primitive::{Contact, Primitive, Square};
 use crate::{Crossing, KernelSettings};
 use lancer_math::{Bounds, Point, Ray, Vector, unit};
 use lancer_scene::{Checker, Mesh};
@@ -50,6 +50,11 @@ impl Facets {
             inside_out: volume < 0.0 && mesh.is_closed(),
             volume: volume.abs(),
         }
+    }
+
+    /// Whether normals to shade with are others than those of its facets.
+    pub(crate) fn is_smooth(&self) -> bool {
+        self.mesh.has_normals()
     }
 
     /// How much memory it takes, apart from the mesh.
@@ -113,12 +118,12 @@ impl Primitive for Facets {
 
     /// Squares from the origin, by the two coordinates that the facet's normal
     /// has least of.
-    fn cell(&self, contact: &Contact, _part: u32, checker: &Checker) -> Cell {
+    fn square(&self, contact: &Contact, _part: u32, checker: &Checker) -> Square {
         let axis = contact.normal.iamax();
         let length = checker.length.get();
         let at = contact.point.coords / length;
         let slack = checker::slack(contact.error, length);
-        checker::cell([at[(axis + 1) % 3], at[(axis + 2) % 3]], [slack; 2])
+        checker::square([at[(axis + 1) % 3], at[(axis + 2) % 3]], [slack; 2])
     }
 
     fn bounds(&self) -> Option<Bounds> {

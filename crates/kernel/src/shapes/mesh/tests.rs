@@ -1,6 +1,7 @@
 use super::*;
 use crate::Culling;
 use crate::lanes::Width;
+use crate::primitive::Cell;
 use crate::shapes::testing::{
     all, assert_sound, check_leaving, check_pairs, check_scaling, direction, ray, ray_to,
 };
@@ -240,7 +241,7 @@ fn open_meshes_have_no_inside_and_checkers_squares() {
         let ray = ray([x, y, 9.0], [0.0, 0.0, -1.0]);
         let crossing = shape.nearest(&ray, 10.0).unwrap();
         let contact = shape.contact(&ray, &crossing);
-        assert_eq!(shape.cell(&contact, crossing.part, &checker), expected, "{x} {y}");
+        assert_eq!(shape.square(&contact, crossing.part, &checker).cell, expected, "{x} {y}");
     }
 }
 

@@ -1,0 +1,233 @@
+//! What is known of the pixels of a tile.
+
+use crate::{Rgb, Seen, TILE_SIDE};
+use lancer_film::Window;
+
+/// How many pixels a tile has at most.
+pub(super) const TILE: usize = (TILE_SIDE * TILE_SIDE) as usize;
+
+/// The pixels of a tile, row by row.
+pub(super) struct Tile {
+    pub(super) window: Window,
+    /// What the first sample saw; where a pixel is smooth, the value that follows.
+    pub(super) colour: Vec<Rgb>,
+    /// The lower half of what the first sample has met.
+    pub(super) signature: Vec<u32>,
+    /// Where in the pixel the first sample is.
+    pub(super) place: Vec<[f32; 2]>,
+    /// The expected square of the error of those that are not refined.
+    pub(super) error: Vec<f32>,
+    /// The pixels that are refined.
+    pub(super) is_refined: Set,
+    /// Those in which something else was found than what the first sample met, or the first
+    /// sample alone met what it met.
+    pub(super) is_mixed: Set,
+    /// Those of them whose neighbours are refined for it.
+    pub(super) is_followed: Set,
+    /// So many samples its pixels should have at least, if any should.
+    pub(super) least: Vec<u32>,
+    /// Those, in the order in which that was found necessary.
+    pub(super) refined: Vec<Pixel>,
+}
+
+/// A pixel that gets more than one sample.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pixel {
+    /// Its place in the tile.
+    pub(super) index: u8,
+    /// The first of the two sets of samples that its halves are.
+    pub(super) set: u8,
+    /// Whether one of its samples has met something else than its first one.
+    pub(super) is_mixed: bool,
+    /// Whether its first sample alone met what it met, among its neighbours.
+    pub(super) is_odd: bool,
+    /// The variance among the first samples of its neighbours, of exposed values.
+    pub(super) contrast: f32,
+    /// How many samples, the first one not among them unless it counts, met what it met.
+    pub(super) same: u32,
+    /// What sums are relative to.
+    pub(super) shift: Rgb,
+    pub(super) halves: [Half; 2],
+}
+
+/// Samples that are independent of those of the other half.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Half {
+    pub(super) count: u32,
+    pub(super) sum: [f64; 3],
+    /// The sum of squares over components.
+    pub(super) squares: f64,
+}
+
+impl Tile {
+    pub(super) fn new(window: Window) -> Self {
+        let pixels = window.pixels() as usize;
+        Self {
+            window,
+            colour: vec![[0.0; 3]; pixels],
+            signature: vec![0; pixels],
+            place: Vec::new(),
+            // Nothing is known.
+            error: vec![1.0; pixels],
+            is_refined: Set::default(),
+            is_mixed: Set::default(),
+            is_followed: Set::default(),
+            least: Vec::new(),
+            refined: Vec::new(),
+        }
+    }
+
+    pub(super) fn pixels(&self) -> usize {
+        self.colour.len()
+    }
+
+    /// Column and row of a pixel in the frame.
+    pub(super) fn pixel(&self, index: usize) -> (u32, u32) {
+        let index = index as u32;
+        (self.window.x + index % self.window.width, self.window.y + index / self.window.width)
+    }
+
+    /// Has a pixel refined from now on.
+    pub(super) fn refine(&mut self, pixel: Pixel) {
+        let index = usize::from(pixel.index);
+        self.is_refined.put(index);
+        if pixel.is_odd {
+            self.is_mixed.put(index);
+        }
+        self.refined.push(pixel);
+    }
+}
+
+/// Some pixels of a tile.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Set([u64; TILE / 64]);
+
+impl Set {
+    pub(super) fn has(&self, index: usize) -> bool {
+        self.0[index / 64] >> (index % 64) & 1 == 1
+    }
+
+    pub(super) fn put(&mut self, index: usize) {
+        self.0[index / 64] |= 1 << (index % 64);
+    }
+}
+
+impl Half {
+    fn add(&mut self, seen: Rgb, shift: Rgb) {
+        self.count += 1;
+        for ((sum, seen), shift) in self.sum.iter_mut().zip(seen).zip(shift) {
+            let more = f64::from(seen) - f64::from(shift);
+            *sum += more;
+            self.squares += more * more;
+        }
+    }
+
+    /// The variance of a sample, mean of the components, of exposed values; 0 where there
+    /// are not two.
+    pub(super) fn variance(&self, exposure: f64) -> f64 {
+        if self.count < 2 {
+            return 0.0;
+        }
+        let n = f64::from(self.count);
+        let sum = self.sum.iter().map(|sum| sum * sum).sum::<f64>();
+        let variance = (self.squares - sum / n) / (3.0 * (n - 1.0));
+        (variance * exposure * exposure).max(0.0)
+    }
+
+    fn mean(&self, shift: Rgb) -> [f64; 3] {
+        let n = f64::from(self.count);
+        [0, 1, 2].map(|i| f64::from(shift[i]) + self.sum[i] / n)
+    }
+}
+
+impl Pixel {
+    /// One without samples.
+    pub(super) fn new(index: usize, set: u8, first: Rgb, contrast: f32) -> Self {
+        Self {
+            index: index as u8,
+            set,
+            is_mixed: false,
+            is_odd: false,
+            contrast,
+            same: 0,
+            shift: first,
+            halves: [Half::default(); 2],
+        }
+    }
+
+    /// Whether neighbours' first samples did not show that there is an edge.
+    pub(super) const fn is_thin(&self) -> bool {
+        self.set != 0
+    }
+
+    pub(super) fn count(&self) -> u32 {
+        self.halves[0].count + self.halves[1].count
+    }
+
+    /// Takes in a sample of one half; `first` is the signature of the first sample.
+    pub(super) fn add(&mut self, half: usize, seen: &Seen, first: u32) {
+        self.halves[half].add(seen.radiance, self.shift);
+        if seen.signature as u32 == first {
+            self.same += 1;
+        } else {
+            self.is_mixed = true;
+        }
+    }
+
+    /// The mean of all samples.
+    pub(super) fn value(&self) -> [f64; 3] {
+        let n = f64::from(self.count());
+        let [a, b] = &self.halves;
+        [0, 1, 2].map(|i| f64::from(self.shift[i]) + (a.sum[i] + b.sum[i]) / n)
+    }
+
+    /// The expected square of the error of the mean of both halves, as far as their difference
+    /// tells: mean over components of what is exposed and clipped.
+    pub(super) fn observed(&self, exposure: f64) -> f64 {
+        let [a, b] = self.halves.each_ref().map(|half| half.mean(self.shift));
+        let [n, m] = self.halves.map(|half| f64::from(half.count));
+        let shown = |v: f64| (v * exposure).clamp(0.0, 1.0);
+        let squares = (0..3).map(|i| shown(a[i]) - shown(b[i])).map(|d| d * d).sum::<f64>();
+        // The variance of a mean of n is v / n if that of one is v, so the difference has
+        // v (1 / n + 1 / m), and the mean of both v / (n + m).
+        squares / 3.0 * (n * m / ((n + m) * (n + m)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn seen(v: f32) -> Seen {
+        Seen { radiance: [v; 3], signature: u64::from(v > 0.5) }
+    }
+
+    #[test]
+    fn means_are_exact_for_many_samples_and_variances_of_bright_ones() {
+        let mut pixel = Pixel::new(0, 0, [0.0; 3], 0.0);
+        for k in 0..1 << 22 {
+            pixel.add(k % 2, &seen(0.1), 0);
+        }
+        let right = f64::from(0.1_f32);
+        assert!((pixel.value()[1] / right - 1.0).abs() < 1e-9);
+        // A mean of 1e4 with a deviation of about 1e-3, which singles hold so roughly.
+        let mut pixel = Pixel::new(0, 0, [1e4; 3], 0.0);
+        let step = 1e4_f32.next_up() - 1e4;
+        for k in 0..1000 {
+            pixel.add(0, &seen(if k % 2 == 0 { 1e4 } else { 1e4_f32.next_up() }), 0);
+        }
+        let right = f64::from(step) * f64::from(step) / 4.0 * (1000.0 / 999.0);
+        assert!((pixel.halves[0].variance(1.0) / right - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn half_the_difference_of_halves_tells_the_error_of_both() {
+        let mut pixel = Pixel::new(0, 0, [0.25; 3], 0.0);
+        pixel.add(0, &seen(0.25), 0);
+        pixel.add(1, &seen(0.75), 0);
+        assert_eq!((pixel.value(), pixel.observed(1.0)), ([0.5; 3], 0.0625));
+        // Beyond white there is no difference.
+        assert_eq!(pixel.observed(10.0), 0.0);
+        assert!(pixel.is_mixed && pixel.same == 1);
+    }
+}
