@@ -4,7 +4,8 @@ use crate::frame::Frame;
 use crate::text::Number;
 use lancer_math::{Placement, Point, Vector};
 use lancer_scene::{
-    Checker, Colour, Cuboid, Geometry, Mesh, Pattern, Plane, Shadows, Shape, Surface, Tetrahedron,
+    Checker, Colour, Cuboid, Direction, Geometry, Mesh, Pattern, Plane, Shadows, Shape, Surface,
+    Tetrahedron,
 };
 use std::fmt::Write;
 
@@ -103,7 +104,7 @@ impl Writer<'_> {
             "",
         );
         let frame = Frame::around(plane.normal.get(), plane.origin.get());
-        let factor = placement.volume_factor().cbrt();
+        let factor = libm::cbrt(placement.volume_factor());
         let wide = WIDE * self.reach / factor;
         let eye = placement.local_point(&self.scene.camera.origin().get()) - frame.origin;
         // Whole pairs of cells from the origin to the middle, and from there to the edge.
@@ -152,7 +153,7 @@ impl Writer<'_> {
         }
         let name = &self.files[parts[0]].name;
         let is_flat = parts[1] == 0;
-        let mut own = format!("<string name=\"filename\" value=\"{}\"/>", escaped(name));
+        let mut own = format!("<string name=\"filename\" value=\"{name}\"/>");
         let _ = write!(own, "<boolean name=\"face_normals\" value=\"{is_flat}\"/>");
         let [x, y, z] = Frame::of(placement).axes;
         if is_flat && x.cross(&y).dot(&z) < 0.0 {
@@ -208,11 +209,6 @@ fn globe(checker: &Checker) -> String {
     )
 }
 
-/// A name in an attribute.
-fn escaped(name: &str) -> String {
-    name.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
-}
-
 /// The triangles of a shape, with its checker in their coordinates; `None` of one of the user's own.
 fn triangles(shape: &Shape) -> Option<Triangles> {
     let checker = match shape.surface.pattern {
@@ -226,7 +222,7 @@ fn triangles(shape: &Shape) -> Option<Triangles> {
         Geometry::Cone(cone) => round::cone(cone, &checker),
         Geometry::Torus(torus) => round::torus(torus, &checker),
         Geometry::Rectangle(rectangle) => {
-            let [a, b] = rectangle.sides().map(|side| side.get());
+            let [a, b] = rectangle.sides().map(Direction::get);
             let corner = rectangle.corner();
             flat(&[[corner, corner + a, corner + a + b, corner + b].to_vec()], &checker)
         }

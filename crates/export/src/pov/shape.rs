@@ -4,7 +4,7 @@ use super::surface::Look;
 use crate::frame::Frame;
 use crate::text::{Number, angled, angled_point};
 use lancer_math::{Point, Vector, unit};
-use lancer_scene::{Cone, Geometry, Mesh, Shape, Torus};
+use lancer_scene::{Cone, Direction, Geometry, Mesh, Shape, Torus};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -36,7 +36,7 @@ pub(super) fn object(shape: &Shape, look: &Look<'_>) -> Option<String> {
             format!("disc {{ {centre}, {}, {}", angled(&normal), Number(disc.radius.get()))
         }
         Geometry::Rectangle(rectangle) => {
-            let [a, b] = rectangle.sides().map(|side| side.get());
+            let [a, b] = rectangle.sides().map(Direction::get);
             let normal = Frame::of_sides(Point::origin(), [a, b]).axes[2];
             let place = Frame { axes: [a, b, normal], origin: rectangle.corner() };
             format!(
