@@ -154,8 +154,9 @@ struct Writer<'a> {
     reach: f64,
     omissions: &'a mut Omissions,
     files: Vec<Attachment>,
-    /// The files of shapes that were met already, by address: only looked up.
-    known: BTreeMap<*const Shape, Vec<usize>>,
+    /// The files of shapes that were met already, and whether they are flat, by address: only
+    /// looked up.
+    known: BTreeMap<*const Shape, (usize, bool)>,
     /// Whether nothing mirrors or is clear.
     is_matte: bool,
     body: String,

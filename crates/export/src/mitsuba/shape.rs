@@ -127,17 +127,16 @@ impl Writer<'_> {
     /// A shape as triangles from a file.
     fn mesh(&mut self, shape: &Shape, placement: &Placement, place: &str) {
         let key = std::ptr::from_ref(shape);
-        let parts = match self.known.get(&key) {
-            Some(parts) => parts.clone(),
+        let (file, is_flat) = match self.known.get(&key) {
+            Some(known) => *known,
             None => {
                 let Some(triangles) = triangles(shape) else {
                     let what = "a shape of your own, which is left out";
                     return self.omissions.add(place, what, "");
                 };
-                let file = self.file(triangles.to_bytes());
-                let parts = vec![file, usize::from(triangles.is_smooth)];
-                self.known.insert(key, parts.clone());
-                parts
+                let known = (self.file(triangles.to_bytes()), !triangles.is_smooth);
+                self.known.insert(key, known);
+                known
             }
         };
         let is_round = matches!(
@@ -151,8 +150,7 @@ impl Writer<'_> {
                 "",
             );
         }
-        let name = &self.files[parts[0]].name;
-        let is_flat = parts[1] == 0;
+        let name = &self.files[file].name;
         let mut own = format!("<string name=\"filename\" value=\"{name}\"/>");
         let _ = write!(own, "<boolean name=\"face_normals\" value=\"{is_flat}\"/>");
         let [x, y, z] = Frame::of(placement).axes;
