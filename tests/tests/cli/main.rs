@@ -1,5 +1,6 @@
 //! The program itself, run as a user runs it.
 
+mod export;
 #[cfg(unix)]
 mod unix;
 

@@ -20,6 +20,9 @@ use std::fmt::Write;
 use std::sync::Arc;
 use surface::Look;
 
+pub(crate) use checker::axis;
+pub(crate) use shape::FACES;
+
 /// Rays that count for less are not followed: the cutoff that engine `whitted` usually has.
 const BAILOUT: f64 = 1e-4;
 
