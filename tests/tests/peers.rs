@@ -178,8 +178,7 @@ fn a_peer_that_takes_too_long_is_ended() {
     let size = Size::new(4000, 3000);
     let exported = export(&scene("readme.xml", size), Format::PovRay, "scene");
     let begun = std::time::Instant::now();
-    let late =
-        povray.render(&exported, size, TWO, Setting::Centres, Duration::from_millis(300));
+    let late = povray.render(&exported, size, TWO, Setting::Centres, Duration::from_millis(300));
     assert!(matches!(late, Err(peers::PeerError::TimedOut { .. })), "{late:?}");
     assert!(begun.elapsed() < Duration::from_secs(5));
     let broken = lancer_export::Exported { text: "sphere {".to_owned(), ..exported };

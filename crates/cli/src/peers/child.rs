@@ -49,7 +49,8 @@ impl Folder {
         let err = out.try_clone().map_err(|e| peer.failed(e))?;
         command.current_dir(self.0.path()).stdin(Stdio::null()).stdout(out).stderr(err);
         let begun = Instant::now();
-        let child = command.spawn().map_err(|e| peer.failed(format_args!("does not start: {e}")))?;
+        let child =
+            command.spawn().map_err(|e| peer.failed(format_args!("does not start: {e}")))?;
         let mut running = Running(child);
         let status = loop {
             if let Some(status) = running.0.try_wait().map_err(|e| peer.failed(e))? {

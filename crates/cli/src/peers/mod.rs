@@ -204,11 +204,8 @@ mod tests {
 
     #[test]
     fn what_is_meant_for_another_is_refused() {
-        let peer = Peer {
-            format: Format::PovRay,
-            command: "false".into(),
-            version: "POV-Ray".to_owned(),
-        };
+        let peer =
+            Peer { format: Format::PovRay, command: "false".into(), version: "POV-Ray".to_owned() };
         let exported = Exported {
             format: Format::PovRay,
             text: String::new(),

@@ -36,9 +36,11 @@ pub(super) fn render(
 ) -> Result<PeerPicture, PeerError> {
     let folder = Folder::with(peer, exported, "scene.pov")?;
     let mut command = Command::new(&peer.command);
-    command
-        .args(["+Iscene.pov", "+Opicture.png", "-D", "+FN16", "File_Gamma=1.0"])
-        .args([format!("+W{}", size.width), format!("+H{}", size.height), format!("+WT{threads}")]);
+    command.args(["+Iscene.pov", "+Opicture.png", "-D", "+FN16", "File_Gamma=1.0"]).args([
+        format!("+W{}", size.width),
+        format!("+H{}", size.height),
+        format!("+WT{threads}"),
+    ]);
     match setting {
         Setting::Antialiased { threshold, method, depth } => {
             command.args([format!("+A{threshold}"), format!("+AM{method}"), format!("+R{depth}")]);

@@ -93,7 +93,8 @@ impl<'a> Look<'a> {
             Pattern::Solid => first,
         };
         let one = |colour: [f64; 3]| {
-            let (colour, glow) = if glows { glowing(colour, emission) } else { (colour, String::new()) };
+            let (colour, glow) =
+                if glows { glowing(colour, emission) } else { (colour, String::new()) };
             opaque_finish(&format!("pigment {{ {} }}", rgb(colour, 1.0)), gloss, &glow)
         };
         match cells {
