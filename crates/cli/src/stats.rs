@@ -114,11 +114,11 @@ impl Sampled {
             (Why::Interrupted | Why::Error, _) => self.stopped.to_owned(),
             (Why::MostSamples, _) => "pixels have as many samples as they may".to_owned(),
         };
-        let mut text = format!(
-            "error about {} ({why}), {} samples a pixel",
-            short(self.error),
-            short(self.samples_per_pixel)
-        );
+        let samples = match &*short(self.samples_per_pixel) {
+            "1" => "1 sample".to_owned(),
+            number => format!("{number} samples"),
+        };
+        let mut text = format!("error about {} ({why}), {samples} a pixel", short(self.error));
         if self.pixels_without_samples > 0 {
             let pixels = count(self.pixels_without_samples as usize, "pixel");
             text.push_str(&format!(", {pixels} still without (black)"));
