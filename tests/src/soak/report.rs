@@ -25,6 +25,18 @@ impl Report {
         Self { kind, tally }
     }
 
+    /// Together with what comes after it.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        Self { kind: self.kind, tally: self.tally.and(other.tally) }
+    }
+
+    /// How many answers were wrong.
+    #[must_use]
+    pub fn failures(&self) -> u64 {
+        self.tally.total().failures()
+    }
+
     /// All that is wrong, each with the id of a ray if it is that of a ray.
     #[must_use]
     pub fn problems(&self) -> Vec<String> {

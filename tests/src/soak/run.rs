@@ -12,6 +12,7 @@ use super::report::Report;
 use super::tally::{Failure, Tally, Wrong, describe};
 use fastrand::Rng;
 use rayon::prelude::*;
+use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// How many rays each scene is asked, but for the last one.
@@ -20,15 +21,19 @@ const RAYS: u64 = 1000;
 /// The oracle is asked about one of so many rays that nothing is special about.
 const SEEDED: u64 = 1000;
 
-/// Asks so many rays of scenes of that kind; those that leave their hits come on top. What is
-/// wrong is told at once, too.
+/// Asks the rays of those numbers, a thousand for each scene of that kind; those that leave
+/// their hits come on top. What is wrong is told at once, too.
+///
+/// # Panics
+/// Where the first one is not the first of a scene.
 #[must_use]
-pub fn soak(kind: Kind, seed: u64, rays: u64, tell: impl Fn(&Failure) + Sync) -> Report {
-    let cases = (0..rays.div_ceil(RAYS)).into_par_iter();
+pub fn soak(kind: Kind, seed: u64, rays: Range<u64>, tell: impl Fn(&Failure) + Sync) -> Report {
+    assert!(rays.start.is_multiple_of(RAYS), "{} is within a scene", rays.start);
+    let cases = (rays.start / RAYS..rays.end.div_ceil(RAYS)).into_par_iter();
     let tally = cases
         .map(|case| {
             let id = Id { kind, seed, case, ray: 0, is_left: false };
-            let count = RAYS.min(rays - case * RAYS);
+            let count = RAYS.min(rays.end - case * RAYS);
             let tally = catch_unwind(AssertUnwindSafe(|| Run::new(id).all(count)));
             let tally = tally.unwrap_or_else(|panic| {
                 let text = panic.downcast_ref::<String>().map(String::as_str);

@@ -74,11 +74,8 @@ pub(crate) fn run(args: &StabilityArgs) -> Result<(), Failure> {
     }
     let mut is_good = true;
     if let Some(rays) = args.rays {
-        let (section, fine) = soak::run(args, rays)?;
-        is_good &= fine;
-        if args.write {
-            page::write("soak", &section)?;
-        }
+        let write = |section: &str| if args.write { page::write("soak", section) } else { Ok(()) };
+        is_good &= soak::run(args, rays, write)?;
     }
     if let Some(rays) = args.leaks {
         let (section, fine) = leaks::run(args, rays)?;

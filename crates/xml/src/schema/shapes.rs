@@ -181,7 +181,9 @@ pub static TETRAHEDRON: Element = Element {
     attributes: &[LENGTH, MATERIAL_OF_SHAPE],
     surface: SURFACE,
     cells: Some(Cells::Length),
-    checker: "squares on each face from one of its corners, along a side there",
+    checker: "squares on each face along one of its sides and perpendicular to it, from where \
+              that begins: seen from outside, the one that goes anticlockwise from <a>, and where \
+              <d> is a corner, the one that goes anticlockwise to <d>",
     children: &[
         once(&A, "the first corner"),
         once(&B, "the second"),

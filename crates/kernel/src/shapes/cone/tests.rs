@@ -373,7 +373,7 @@ fn narrow_ends_are_met_where_they_are_from_afar() {
     let steep = cone((base, 93.485_181_736_087_92), (top, 0.0), true);
     // b cancels to a fiftieth of its terms.
     let one = ray(
-        [-213.711_441_448_369_44, 218.125_728_847_180_27, 188.928_787_740_083_22],
+        [-213.711_441_448_369_44, 218.125_728_847_180_27, 188.928_787_740_083_2],
         [110.418_464_756_988_17, -103.031_883_026_682_15, -74.510_271_074_390_9],
     );
     let (worst, count) = worst_crossing(&steep.0, &steep.1, std::iter::once(one));
