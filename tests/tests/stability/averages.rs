@@ -11,7 +11,7 @@ use lancer_scene::{Exposure, Shape, Stops};
 fn a3_light_is_averaged_before_it_is_exposed_and_clipped() {
     // The pixel is one wide where the rectangle is.
     let spark =
-        Shape::rectangle([0.13, -0.31, 0.0], [0.1, 0.0, 0.0], [0.0, 0.1, 0.0], shining(100.0));
+        Shape::rectangle([0.13, -0.31, 0.0], [[0.1, 0.0, 0.0], [0.0, 0.1, 0.0]], shining(100.0));
     let scene = built(scene(eye([0.0, 0.0, 1.0], [0.0; 3]), 0.2).shape(spark));
     let right = 0.01 * 100.0 + 0.99 * 0.2;
     // Four standard errors: of 65,536 places anywhere, and of a grid's cells, some 104 of which
