@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 /// Renders the scene with further arguments; the file and the statistics.
 fn render(folder: &Folder, arguments: &str) -> (Vec<u8>, serde_json::Value) {
     let all = format!("render scene.xml -o a.ppm --stats s.json {arguments}");
-    folder.run(&all.split(' ').collect::<Vec<_>>()).told();
+    folder.run(&all.split_whitespace().collect::<Vec<_>>()).told();
     (bytes(&folder.path("a.ppm")), folder.stats())
 }
 
