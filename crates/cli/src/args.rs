@@ -1,5 +1,6 @@
 //! The command line: what may be written, and what it means.
 
+use crate::asked::AskedArgs;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 use lancer_film::{LayerKind, Size, Window};
@@ -26,9 +27,10 @@ Environment:
   NO_COLOR      if set, warnings and errors have no colours
 
 Exit codes:
-  0  done
-  1  the scene or the work failed, or the pictures differ
-  2  wrong usage";
+  0    done
+  1    the scene or the work failed, or the pictures differ
+  2    wrong usage
+  130  interrupted: the picture is the one so far, or there is none";
 
 /// Lancer, a ray tracer: text scene in, picture out.
 #[derive(Debug, Parser)]
@@ -78,18 +80,23 @@ pub struct RenderArgs {
     #[allow(missing_docs, reason = "the doc comment would replace the computed help")]
     pub engine: EngineName,
 
+    #[command(flatten)]
+    #[allow(missing_docs, reason = "the doc comment would replace the program's own")]
+    pub asked: AskedArgs,
+
     /// How bright the picture is shown: a number of stops (each doubles it), or auto. Else the
     /// camera's own exposure
     #[arg(long, value_name = "STOPS", value_parser = parse_exposure, allow_hyphen_values = true)]
     pub exposure: Option<Exposure>,
 
     /// Do not follow rays that together could change a pixel by no more than this part of display
-    /// white (whitted; 0.0001 by default)
+    /// white (whitted; by default a fifth of the error that is asked for, and 0.0001 if none is)
     #[arg(long, value_name = "C", value_parser = parse_cutoff, allow_hyphen_values = true)]
     pub cutoff: Option<Whitted>,
 
-    /// Write also what each pixel shows first, as layers of an EXR picture: depth, normal, albedo,
-    /// shape, instance, with commas between them, or all (whitted)
+    /// Write also what each pixel shows first, and how good it is, as layers of an EXR picture:
+    /// depth, normal, albedo, shape, instance, error, samples, with commas between them, or all
+    /// (whitted)
     #[arg(long, value_name = "LAYERS", value_parser = parse_layers)]
     pub layers: Option<LayerKinds>,
 
@@ -376,7 +383,7 @@ mod tests {
         assert!(parse_cutoff("1e-7").is_ok_and(|whitted| whitted.cutoff() == 1e-7));
         let layers = parse_layers("normal,depth,normal").map(|layers| layers.0);
         assert_eq!(layers, Ok(vec![LayerKind::Normal, LayerKind::Depth]));
-        assert_eq!(parse_layers("all").map(|layers| layers.0.len()), Ok(5));
+        assert_eq!(parse_layers("all").map(|layers| layers.0.len()), Ok(7));
         assert!(parse_layers("").is_err() && parse_layers("depth,colour").is_err());
     }
 

@@ -26,33 +26,58 @@ pub(super) fn lights(
     let target = view.origin + view.axis * view.distance;
     for (i, light) in scene.lights.iter().enumerate() {
         let place = format!("light {}", i + 1);
-        let strength = light.brightness().get() * exposure * PI;
-        let mut intensity = |point: &Point, falloff: Falloff| {
-            let factor = match falloff {
-                Falloff::Square => 1.0,
-                Falloff::None => {
-                    omissions.add(
-                        &place,
-                        "all light falls off with the square of the distance; it is as strong as \
-                         it should be at the distance of the camera's target",
-                        "let it fall off",
-                    );
-                    (target - point).norm_squared()
-                }
-            };
-            rgb("intensity", [strength; 3], factor)
+        let falls_off = match light {
+            Light::Lamp { falloff, .. } | Light::Spot { falloff, .. } => {
+                *falloff == Falloff::Square
+            }
+            Light::Sun { .. } => true,
+        };
+        if !falls_off {
+            omissions.add(
+                &place,
+                "all light falls off with the square of the distance; it is as strong as it should \
+                 be at the distance of the camera's target",
+                "let it fall off",
+            );
+        }
+        let whole = light.brightness().get() * exposure * PI;
+        let strength = |point: &Point, falloff: Falloff| match falloff {
+            Falloff::Square => whole,
+            Falloff::None => whole * (target - point).norm_squared(),
         };
         text += &match light {
-            Light::Lamp { point, falloff, .. } => {
+            Light::Lamp { point, radius: Some(radius), falloff, .. } => {
+                let (point, radius) = (point.get(), radius.get());
+                let at = joined(&[point.x, point.y, point.z], ", ");
+                // As bright from afar as the point.
+                let strength = strength(&point, *falloff) / (PI * radius * radius);
+                omissions.add(&place, "a ball of light is seen itself", "");
+                format!(
+                    "<shape type=\"sphere\"><point name=\"center\" value=\"{at}\"/>\
+                     <float name=\"radius\" value=\"{}\"/><emitter type=\"area\">{}</emitter>\
+                     <bsdf type=\"diffuse\">{}</bsdf></shape>\n",
+                    Number(radius),
+                    rgb("radiance", [strength; 3], 1.0),
+                    rgb("reflectance", [0.0; 3], 1.0)
+                )
+            }
+            Light::Lamp { point, radius: None, falloff, .. } => {
                 let point = point.get();
                 let at = joined(&[point.x, point.y, point.z], ", ");
-                let intensity = intensity(&point, *falloff);
+                let intensity = rgb("intensity", [strength(&point, *falloff); 3], 1.0);
                 format!(
                     "<emitter type=\"point\"><point name=\"position\" value=\"{at}\"/>{intensity}</emitter>\n"
                 )
             }
-            Light::Spot { point, axis, beam, falloff, .. } => {
-                let intensity = intensity(&point.get(), *falloff);
+            Light::Spot { point, axis, beam, falloff, radius, .. } => {
+                let intensity = rgb("intensity", [strength(&point.get(), *falloff); 3], 1.0);
+                if radius.is_some() {
+                    omissions.add(
+                        &place,
+                        "a spot shines from a point, and its shadows are hard",
+                        "",
+                    );
+                }
                 let Frame { axes, origin } = Frame::around(axis.get(), point.get());
                 let cone = cone(beam, &place, omissions);
                 format!(
@@ -63,7 +88,7 @@ pub(super) fn lights(
             Light::Sun { direction, .. } => {
                 let travels = unit(direction.get()).unwrap_or_else(lancer_math::Vector::z);
                 let way = joined(&[travels.x, travels.y, travels.z], ", ");
-                let irradiance = rgb("irradiance", [strength; 3], 1.0);
+                let irradiance = rgb("irradiance", [whole; 3], 1.0);
                 format!(
                     "<emitter type=\"directional\"><vector name=\"direction\" value=\"{way}\"/>{irradiance}</emitter>\n"
                 )

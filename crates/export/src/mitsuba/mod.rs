@@ -94,13 +94,13 @@ pub(crate) fn write(
             "<integrator type=\"path\"><integer name=\"max_depth\" value=\"{DEEPEST}\"/></integrator>"
         );
     }
-    text += &sensor(&view);
+    text += &sensor(&view, omissions);
     text += &lights::lights(scene, &view, exposure, omissions);
     (text + &body + "</scene>\n", files)
 }
 
 /// Its own axes: to the left, upward, ahead.
-fn sensor(view: &View) -> String {
+fn sensor(view: &View, omissions: &mut Omissions) -> String {
     let half = view.width / 2.0;
     let (kind, size, angle) = if view.is_parallel {
         ("orthographic", half, String::new())
@@ -110,8 +110,20 @@ fn sensor(view: &View) -> String {
             "<float name=\"fov\" value=\"{}\"/><string name=\"fov_axis\" value=\"x\"/>",
             Number(degrees)
         );
-        ("perspective", 1.0, fov)
+        if view.aperture == 0.0 {
+            ("perspective", 1.0, fov)
+        } else {
+            let (radius, focus) = (Number(view.aperture / 2.0), Number(view.focus));
+            let lens = format!(
+                "<float name=\"aperture_radius\" value=\"{radius}\"/>\
+                 <float name=\"focus_distance\" value=\"{focus}\"/>"
+            );
+            ("thinlens", 1.0, fov + &lens)
+        }
     };
+    if view.is_parallel && view.aperture > 0.0 {
+        omissions.add("camera", "with parallel rays all is sharp", "");
+    }
     let place = matrix(&[view.right * -size, view.up * size, view.axis], &view.origin);
     let near = view.distance.min(view.width) * 1e-4;
     format!(

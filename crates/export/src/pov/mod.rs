@@ -33,6 +33,9 @@ const DEEPEST: u32 = 256;
 const SMALLEST: f64 = 0.1;
 const LARGEST: f64 = 1e6;
 
+/// How many rays there are for each pixel where the camera has a lens.
+const THROUGH_LENS: u32 = 100;
+
 /// More shapes than this in memory are worth a word.
 const MANY: u64 = 1_000_000;
 
@@ -103,8 +106,23 @@ fn camera(camera: &Camera, omissions: &mut Omissions) -> String {
     }
     let kind = if view.is_parallel { "orthographic" } else { "perspective" };
     let ahead = if view.is_parallel { view.axis } else { view.axis * view.distance };
+    let lens = if view.aperture == 0.0 {
+        String::new()
+    } else {
+        omissions.add(
+            "camera",
+            &format!("a lens is {THROUGH_LENS} rays for each pixel, whatever is asked for"),
+            "",
+        );
+        // Twice the diameter, as rendering shows.
+        format!(
+            " focal_point {} aperture {} blur_samples {THROUGH_LENS} variance 0",
+            angled_point(&(view.origin + view.axis * view.focus)),
+            Number(2.0 * view.aperture)
+        )
+    };
     format!(
-        "camera {{ {kind} location {} direction {} right {} up {} * image_height / image_width }}\n",
+        "camera {{ {kind} location {} direction {} right {} up {} * image_height / image_width{lens} }}\n",
         angled_point(&view.origin),
         angled(&ahead),
         angled(&(view.right * view.width)),
