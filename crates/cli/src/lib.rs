@@ -13,6 +13,7 @@
 #![forbid(unsafe_code)]
 
 pub mod args;
+mod chart;
 mod check;
 mod compare;
 mod export;
@@ -66,6 +67,7 @@ pub fn main() -> ExitCode {
         Command::Check(args) => check::run(args),
         Command::Compare(args) => compare::run(args),
         Command::Export(args) => export::run(args),
+        Command::Chart(args) => chart::run(args),
     };
     let (message, code) = match result {
         Ok(()) => return ExitCode::SUCCESS,
