@@ -56,8 +56,12 @@ impl<P: Places> Batch<'_, P> {
             let origin = point + facet * (lanes.load(&sights.error[at..]) * 2.0);
             let lit = Lit { at, matter, point, facet, shading, origin };
             let mut light = Vectors::splat(lanes, &Vector::zeros());
+            let mut marks = lanes.load(&sights.lit[at..]);
             for (index, source) in sources.iter().enumerate() {
-                self.shine(lanes, (source, index), &lit, is_grey, &mut light);
+                self.shine(lanes, (source, index), &lit, is_grey, (&mut light, &mut marks));
+            }
+            if P::Signing::SIGNED {
+                marks.store(&mut self.buffers.sights.lit[at..]);
             }
             if is_grey {
                 (light.y, light.z) = (light.x, light.x);
@@ -112,7 +116,8 @@ impl<P: Places> Batch<'_, P> {
         }
     }
 
-    /// Adds the light of one source, all of it to the first colour if it is grey.
+    /// Adds the light of one source, all of it to the first colour if it is grey, and where it
+    /// arrives its marks.
     #[inline(always)]
     fn shine<L: Lanes>(
         &mut self,
@@ -120,7 +125,7 @@ impl<P: Places> Batch<'_, P> {
         (source, index): (&Source, usize),
         lit: &Lit<L>,
         is_grey: bool,
-        light: &mut Vectors<L::Real>,
+        (light, marks): (&mut Vectors<L::Real>, &mut L::Real),
     ) {
         let zero = lanes.splat(0.0);
         let (way, squared, t_max) = match &source.place {
@@ -160,7 +165,7 @@ impl<P: Places> Batch<'_, P> {
         let Hiding { among, outside, is_clear } = &self.buffers.hiding[index];
         if is_grey && *is_clear {
             light.x = asked.select(light.x + strength, light.x);
-            self.arrive(lanes, lit.at, mark, asked);
+            *marks = asked.select(*marks + mark, *marks);
             return;
         }
         let direction = match &source.place {
@@ -173,7 +178,7 @@ impl<P: Places> Batch<'_, P> {
         let arrives = asked & !hidden;
         if is_grey {
             light.x = arrives.select(light.x + strength, light.x);
-            self.arrive(lanes, lit.at, mark, arrives);
+            *marks = arrives.select(*marks + mark, *marks);
             return;
         }
         let mut more = [[0.0; MOST]; 3];
@@ -196,16 +201,6 @@ impl<P: Places> Batch<'_, P> {
             }
         }
         *light = *light + Vectors::load(lanes, more.each_ref().map(|more| &more[..]));
-        self.arrive(lanes, lit.at, mark, lanes.mask(some));
-    }
-
-    /// Notes where light arrives, by its mark.
-    #[inline(always)]
-    fn arrive<L: Lanes>(&mut self, lanes: L, at: usize, mark: L::Real, arrives: L::Mask) {
-        if P::Signing::SIGNED {
-            let lit = &mut self.buffers.sights.lit[at..];
-            let before = lanes.load(lit);
-            arrives.select(before + mark, before).store(lit);
-        }
+        *marks = lanes.mask(some).select(*marks + mark, *marks);
     }
 }
