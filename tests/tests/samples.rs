@@ -4,7 +4,7 @@
 use lancer_film::{Size, Window};
 use lancer_integrator::{
     Culling, Engine, KernelSettings, MOST_SAMPLES, RayCounts, Sample, Sampler, Seen, Stream,
-    TILE_SIDE, Tracer, Whitted, Width,
+    TILE_SIDE, Whitted, Width,
 };
 use lancer_scene::{PixelCount, Scene};
 use lancer_tests::{golden, random};

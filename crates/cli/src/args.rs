@@ -1,6 +1,7 @@
 //! The command line: what may be written, and what it means.
 
 use crate::asked::AskedArgs;
+pub use crate::chart::ChartArgs;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 use lancer_film::{LayerKind, Size, Window};
@@ -56,6 +57,9 @@ pub enum Command {
     /// Write a scene in the language of another renderer
     #[command(after_help = EXIT_CODES)]
     Export(ExportArgs),
+    /// Chart time against error: a scene with all ways of sampling and their settings
+    #[command(after_help = EXIT_CODES)]
+    Chart(ChartArgs),
 }
 
 /// What to render, how, and where to.
@@ -227,7 +231,7 @@ impl fmt::Debug for EngineName {
     }
 }
 
-fn engine_parser() -> impl TypedValueParser<Value = EngineName> {
+pub(crate) fn engine_parser() -> impl TypedValueParser<Value = EngineName> {
     PossibleValuesParser::new(engines().iter().map(|engine| engine.name()))
         .try_map(|name| engine_by_name(&name).map(EngineName).ok_or("no such engine"))
 }
@@ -272,7 +276,7 @@ fn number(text: &str) -> Option<u32> {
     text.bytes().all(|b| b.is_ascii_digit()).then(|| text.parse().ok()).flatten()
 }
 
-fn parse_size(text: &str) -> Result<Size, String> {
+pub(crate) fn parse_size(text: &str) -> Result<Size, String> {
     text.split_once(['x', 'X'])
         .and_then(|(width, height)| Some(Size::new(side(width)?, side(height)?)))
         .ok_or_else(|| {
@@ -296,14 +300,14 @@ fn parse_crop(text: &str) -> Result<Window, String> {
 /// More threads than this are surely a slip.
 const MOST_THREADS: usize = 1024;
 
-fn parse_threads(text: &str) -> Result<NonZeroUsize, String> {
+pub(crate) fn parse_threads(text: &str) -> Result<NonZeroUsize, String> {
     number(text)
         .and_then(|threads| NonZeroUsize::new(threads as usize))
         .filter(|threads| threads.get() <= MOST_THREADS)
         .ok_or_else(|| format!("expected a whole number from 1 to {MOST_THREADS}"))
 }
 
-fn parse_exposure(text: &str) -> Result<Exposure, String> {
+pub(crate) fn parse_exposure(text: &str) -> Result<Exposure, String> {
     if text == "auto" {
         return Ok(Exposure::Auto);
     }

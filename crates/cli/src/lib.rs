@@ -14,6 +14,7 @@
 
 pub mod args;
 pub mod asked;
+mod chart;
 mod check;
 mod compare;
 mod export;
@@ -74,6 +75,7 @@ pub fn main() -> ExitCode {
         Command::Check(args) => check::run(args),
         Command::Compare(args) => compare::run(args),
         Command::Export(args) => export::run(args),
+        Command::Chart(args) => chart::run(args),
     };
     let (message, code) = match result {
         Ok(()) => return ExitCode::SUCCESS,
