@@ -4,7 +4,7 @@
 use lancer_film::{Size, Window};
 use lancer_integrator::{
     Culling, Engine, KernelSettings, MOST_SAMPLES, RayCounts, Sample, Sampler, Seen, Stream,
-    TILE_SIDE, Tracer, Whitted, Width,
+    TILE_SIDE, Whitted, Width,
 };
 use lancer_scene::{PixelCount, Scene};
 use lancer_tests::{golden, random};
@@ -112,7 +112,7 @@ fn the_scenes_that_people_read() {
     for golden in golden::all().expect("the settings are valid") {
         if golden.engine() == "whitted" {
             let scene = golden.scene().expect("the scene is valid");
-            check(&golden.name, &small(scene, [80, 60]));
+            check(&golden.name, &small(scene, [64, 48]));
         }
     }
 }
@@ -147,7 +147,7 @@ fn lamps_and_lenses() {
 
 #[test]
 fn random_scenes() {
-    for seed in 0..24 {
+    for seed in 0..12 {
         check(&format!("seed {seed}"), &random::scene(seed, [19, 17]));
     }
 }

@@ -13,7 +13,7 @@ pub(crate) fn max<R: Real>(a: R, b: R) -> R {
 
 /// The sum, or another fold, of the lanes.
 #[inline(always)]
-fn fold<L: Lanes>(_: L, register: L::Real, fold: fn(f64, f64) -> f64) -> f64 {
+pub(crate) fn fold<L: Lanes>(_: L, register: L::Real, fold: fn(f64, f64) -> f64) -> f64 {
     let mut each = [0.0; MOST];
     register.store(&mut each);
     let mut all = each[0];

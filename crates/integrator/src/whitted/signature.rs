@@ -7,6 +7,7 @@
 use crate::numbers::mixed;
 use lancer_kernel::{Prepared, SurfacePoint};
 use lancer_scene::Pattern;
+use std::ops::{Add, Mul};
 
 /// Whether signatures are asked for.
 pub(super) trait Signing {
@@ -83,26 +84,27 @@ impl Meeting {
 /// Where a ray met an item.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Spot {
-    /// A sum of marks, by which lights arrive and from which side it is seen; a lane
-    /// of several of them is summed up likewise.
+    /// A sum of marks, by the side from which it is seen, the cell of its checker, and
+    /// which lights arrive; lanes are summed up likewise.
     pub(super) lit: f64,
-    /// A sum of hashes, by the piece of the surface, the cell of its checker, and
-    /// through what light arrives.
+    /// A sum of hashes, by the piece of the surface and through what light arrives.
     pub(super) piece: u64,
 }
 
 impl Spot {
     /// Where light does not arrive yet.
     pub(super) fn new(prepared: &Prepared, point: &SurfacePoint<'_>, from_behind: bool) -> Self {
-        let mut piece = match prepared.patch(point) {
+        let piece = match prepared.patch(point) {
             // Most surfaces have but one.
             0 => 0,
             patch => hash(patch),
         };
-        if let Pattern::Checker(_) = point.surface.pattern {
-            piece = piece.wrapping_add(cell(point.cell));
-        }
-        Self { lit: if from_behind { BEHIND } else { 0.0 }, piece }
+        let side = if from_behind { BEHIND } else { 0.0 };
+        let lit = match point.surface.pattern {
+            Pattern::Solid => side,
+            Pattern::Checker(_) => in_cell(side, point.cell),
+        };
+        Self { lit, piece }
     }
 }
 
@@ -117,10 +119,15 @@ pub(super) const BEHIND: f64 = mark(u64::MAX);
 /// The mark where all light is mirrored.
 pub(super) const TOTAL: f64 = mark(u64::MAX - 1);
 
-/// By a cell of a checker.
+/// What rows and columns of a checker's cells are multiplied with.
+const CELLS: [f64; 2] = [mark(u64::MAX - 2), mark(u64::MAX - 3)];
+
+/// A mark and that of a cell of a checker. Of neighbours that is another however far out
+/// they are: what rounding takes is far less than a mark.
 #[inline(always)]
-pub(super) fn cell([i, j]: [f64; 2]) -> u64 {
-    // Zeros are the same, whatever their signs.
-    let [i, j] = [i + 0.0, j + 0.0].map(f64::to_bits);
-    hash(hash(i) ^ j)
+pub(super) fn in_cell<R>(mark: R, [i, j]: [R; 2]) -> R
+where
+    R: Add<Output = R> + Mul<f64, Output = R>,
+{
+    mark + (i * CELLS[0] + j * CELLS[1])
 }

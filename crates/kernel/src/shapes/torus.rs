@@ -212,8 +212,11 @@ impl Primitive for Ring {
         };
         let (count, roots) = self.roots(&line);
         let mut crossings = Crossings::NONE;
+        // By whether the line meets it on both sides of the hole: where it stands in front of
+        // itself that changes.
+        let part = u32::from(count > 2);
         for root in &roots[..count] {
-            crossings.add(near.t(root / length), 0);
+            crossings.add(near.t(root / length), part);
         }
         crossings
     }

@@ -62,8 +62,12 @@ impl<P: Places> Batch<'_, P> {
             let origin = point + facet * (lanes.load(&sights.error[at..]) * 2.0);
             let lit = Lit { at, matter, point, facet, shading, origin };
             let mut light = Vectors::splat(lanes, &Vector::zeros());
+            let mut marks = lanes.load(&sights.lit[at..]);
             for (index, source) in sources.iter().enumerate() {
-                self.shine(lanes, (source, index, way), &lit, is_grey, &mut light);
+                self.shine(lanes, (source, index, way), &lit, is_grey, (&mut light, &mut marks));
+            }
+            if P::Signing::SIGNED {
+                marks.store(&mut self.buffers.sights.lit[at..]);
             }
             if is_grey {
                 (light.y, light.z) = (light.x, light.x);
@@ -119,7 +123,8 @@ impl<P: Places> Batch<'_, P> {
         }
     }
 
-    /// Adds the light of one source, all of it to the first colour if it is grey.
+    /// Adds the light of one source, all of it to the first colour if it is grey, and where it
+    /// arrives its marks.
     #[inline(always)]
     fn shine<L: Lanes>(
         &mut self,
@@ -127,7 +132,7 @@ impl<P: Places> Batch<'_, P> {
         (source, index, met_on): (&Source, usize, Way),
         lit: &Lit<L>,
         is_grey: bool,
-        light: &mut Vectors<L::Real>,
+        (light, marks): (&mut Vectors<L::Real>, &mut L::Real),
     ) {
         let zero = lanes.splat(0.0);
         let (way, squared, lamp) = match &source.place {
@@ -141,7 +146,7 @@ impl<P: Places> Batch<'_, P> {
             From::Ball(centre, radius) => {
                 let numbers = dimension(met_on, index);
                 let ball = (source, index, (centre, *radius));
-                return self.shine_from_ball(lanes, ball, numbers, lit, is_grey, light);
+                return self.shine_from_ball(lanes, ball, numbers, lit, is_grey, (light, marks));
             }
         };
         let along = dot(&way, &lit.shading);
@@ -171,7 +176,7 @@ impl<P: Places> Batch<'_, P> {
         self.counts.shadow += u64::from(asked.bits().count_ones());
         if is_grey && self.buffers.hiding[index].is_clear {
             light.x = asked.select(light.x + strength, light.x);
-            self.arrive(lanes, lit.at, mark, asked);
+            *marks = asked.select(*marks + mark, *marks);
             return;
         }
         let (direction, t_max) = match lamp {
@@ -179,7 +184,8 @@ impl<P: Places> Batch<'_, P> {
             Some(lamp) => (Vectors::splat_point(lanes, lamp) - lit.origin, 1.0),
         };
         let rays = Rays::new(lanes, lit.origin, direction);
-        self.cast(lanes, (&rays, t_max, asked), (strength, mark), (lit.at, index), is_grey, light);
+        let to = (light, marks);
+        self.cast(lanes, (&rays, t_max, asked), (strength, mark), (lit.at, index), is_grey, to);
     }
 
     /// Adds what arrives of light of a strength that comes along rays, against them, from `t_max`.
@@ -191,7 +197,7 @@ impl<P: Places> Batch<'_, P> {
         (strength, mark): (L::Real, L::Real),
         (at, index): (usize, usize),
         is_grey: bool,
-        light: &mut Vectors<L::Real>,
+        (light, marks): (&mut Vectors<L::Real>, &mut L::Real),
     ) {
         let Hiding { among, outside, .. } = &self.buffers.hiding[index];
         let prepared = &self.tracer.prepared;
@@ -199,7 +205,7 @@ impl<P: Places> Batch<'_, P> {
         let arrives = asked & !hidden;
         if is_grey {
             light.x = arrives.select(light.x + strength, light.x);
-            self.arrive(lanes, at, mark, arrives);
+            *marks = arrives.select(*marks + mark, *marks);
             return;
         }
         let mut more = [[0.0; MOST]; 3];
@@ -222,22 +228,6 @@ impl<P: Places> Batch<'_, P> {
             }
         }
         *light = *light + Vectors::load(lanes, more.each_ref().map(|more| &more[..]));
-        self.arrive(lanes, at, mark, lanes.mask(some));
-    }
-
-    /// Notes where light arrives, by its mark.
-    #[inline(always)]
-    pub(super) fn arrive<L: Lanes>(
-        &mut self,
-        lanes: L,
-        at: usize,
-        mark: L::Real,
-        arrives: L::Mask,
-    ) {
-        if P::Signing::SIGNED {
-            let lit = &mut self.buffers.sights.lit[at..];
-            let before = lanes.load(lit);
-            arrives.select(before + mark, before).store(lit);
-        }
+        *marks = lanes.mask(some).select(*marks + mark, *marks);
     }
 }

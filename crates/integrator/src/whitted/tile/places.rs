@@ -1,12 +1,13 @@
 //! Where the rays of a batch come from, and where what they see goes.
 
 use super::buffers::Bundle;
+use crate::enclose::{fold, max};
 use crate::whitted::signature::{Signed, Signing, Unsigned};
 use crate::whitted::tracer::Task;
 use crate::whitted::view::View;
 use crate::{RayCounts, Rgb, Sample, Seen};
 use lancer_film::Window;
-use lancer_kernel::lanes::{Lanes, MOST};
+use lancer_kernel::lanes::{Lanes, MOST, smaller};
 
 /// The places of a picture that are seen together, no more than a tile has pixels.
 pub(super) trait Places {
@@ -138,21 +139,28 @@ impl Places for Samples<'_> {
 
     #[inline(always)]
     fn rays<L: Lanes>(&self, lanes: L, view: &View, rays: &mut Bundle) -> [f64; 4] {
-        let [mut left, mut top, mut right, mut bottom] =
-            [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
-        let (mut x, mut y) = ([0.0; MOST], [0.0; MOST]);
+        let [first_x, first_y] = self.samples.first().map_or([0.0; 2], |sample| sample.place);
+        let (mut x, mut y) = ([first_x; MOST], [first_y; MOST]);
+        let (mut least, mut most) = (
+            [lanes.splat(first_x), lanes.splat(first_y)],
+            [lanes.splat(first_x), lanes.splat(first_y)],
+        );
         for (samples, at) in self.samples.chunks(L::WIDTH).zip((0..).step_by(L::WIDTH)) {
+            // Beyond the last one there are others.
             for (sample, (to_x, to_y)) in samples.iter().zip(x.iter_mut().zip(&mut y)) {
                 [*to_x, *to_y] = sample.place;
-                (left, right) = (left.min(*to_x), right.max(*to_x));
-                (top, bottom) = (top.min(*to_y), bottom.max(*to_y));
             }
-            let (origin, direction) = view.rays(lanes, lanes.load(&x), lanes.load(&y));
+            let (at_x, at_y) = (lanes.load(&x), lanes.load(&y));
+            least = [smaller(at_x, least[0]), smaller(at_y, least[1])];
+            most = [max(at_x, most[0]), max(at_y, most[1])];
+            let (origin, direction) = view.rays(lanes, at_x, at_y);
             rays.origin.store(lanes, at, &origin);
             rays.direction.store(lanes, at, &direction);
         }
         // That of whole pixels, so that it has a size.
-        [left.floor(), top.floor(), right.floor() + 1.0, bottom.floor() + 1.0]
+        let [left, top] = least.map(|least| fold(lanes, least, f64::min).floor());
+        let [right, bottom] = most.map(|most| fold(lanes, most, f64::max).floor() + 1.0);
+        [left, top, right, bottom]
     }
 
     #[inline(always)]

@@ -7,7 +7,7 @@ use super::units::units;
 use super::{Batch, ball_around, dot};
 use crate::enclose::extent;
 use crate::rows::Triples;
-use crate::whitted::signature::{self, Meeting, Signing, Way};
+use crate::whitted::signature::{self, Meeting, Signing, Spot, Way};
 use lancer_kernel::lanes::{Lanes, Mask, Real, Vectors, lanes_of, larger};
 use lancer_kernel::{ListedShape, Rays};
 use lancer_math::{Bounds, Point, Vector};
@@ -81,6 +81,9 @@ impl<P: Places> Batch<'_, P> {
             prepared.albedos(item).map(|albedo| Vectors::splat(lanes, &Vector::from(albedo)));
         let Buffers { group, sights, .. } = &mut *self.buffers;
         sights.is_smooth = false;
+        if P::Signing::SIGNED {
+            sights.piece[..group.count].fill(0);
+        }
         let mut largest = lanes.splat(0.0);
         let (mut behind, mut before) = (lanes.mask(0), lanes.mask(0));
         for at in (0..group.count).step_by(L::WIDTH) {
@@ -101,7 +104,6 @@ impl<P: Places> Batch<'_, P> {
             if P::Signing::SIGNED {
                 let lit = from_behind.select(lanes.splat(signature::BEHIND), lanes.splat(0.0));
                 lit.store(&mut sights.lit[at..]);
-                sights.piece[at..at + L::WIDTH].fill(0);
             }
 
             let Pattern::Checker(checker) = pattern else {
@@ -112,17 +114,16 @@ impl<P: Places> Batch<'_, P> {
             let albedo = Vectors::select(cells.second, second, first);
             sights.albedo.store(lanes, at, &albedo);
             if P::Signing::SIGNED {
-                let [first, second] = cells.index;
-                for k in 0..L::WIDTH {
-                    sights.piece[at + k] = signature::cell([first.lane(k), second.lane(k)]);
-                }
+                signature::in_cell(lanes.load(&sights.lit[at..]), cells.index)
+                    .store(&mut sights.lit[at..]);
             }
             let asked = lanes.first(group.count - at) & !cells.certain;
             for k in lanes_of(asked.bits()) {
                 let seen = prepared.expand(&group.ray(at + k), &group.hit(at + k));
                 (0..3).for_each(|i| sights.albedo.0[i][at + k] = seen.albedo[i]);
                 if P::Signing::SIGNED {
-                    sights.piece[at + k] = signature::cell(seen.cell);
+                    let from_behind = from_behind.bits() >> k & 1 == 1;
+                    sights.lit[at + k] = Spot::new(prepared, &seen, from_behind).lit;
                 }
             }
         }
@@ -158,7 +159,7 @@ impl<P: Places> Batch<'_, P> {
             put(&mut sights.albedo, k, &Vector::from(seen.albedo));
             sights.error[k] = seen.error;
             if P::Signing::SIGNED {
-                let spot = signature::Spot::new(prepared, &seen, from_behind);
+                let spot = Spot::new(prepared, &seen, from_behind);
                 (sights.lit[k], sights.piece[k]) = (spot.lit, spot.piece);
             }
             bounds = bounds.with(seen.point);
