@@ -132,7 +132,9 @@ fn short(value: f64) -> String {
     if value >= 10.0 || value == 0.0 || !value.is_finite() {
         return format!("{value:.0}");
     }
-    let digits = (1.0 - libm::log10(value.abs()).floor()).clamp(0.0, 12.0);
+    let scientific = format!("{value:.1e}");
+    let exponent = scientific.split_once('e').and_then(|(_, power)| power.parse().ok());
+    let digits = 1_i32.saturating_sub(exponent.unwrap_or(0)).clamp(0, 12);
     let text = format!("{value:.*}", digits as usize);
     match text.strip_suffix(".0") {
         Some(whole) => whole.to_owned(),
