@@ -132,7 +132,7 @@ fn short(value: f64) -> String {
     if value >= 10.0 || value == 0.0 || !value.is_finite() {
         return format!("{value:.0}");
     }
-    let digits = (1.0 - value.abs().log10().floor()).clamp(0.0, 12.0);
+    let digits = (1.0 - libm::log10(value.abs()).floor()).clamp(0.0, 12.0);
     let text = format!("{value:.*}", digits as usize);
     match text.strip_suffix(".0") {
         Some(whole) => whole.to_owned(),

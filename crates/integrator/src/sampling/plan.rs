@@ -15,6 +15,13 @@ pub(super) struct Class {
     pub(super) error: f64,
 }
 
+impl Class {
+    pub(super) fn take(&mut self, error: f64) {
+        self.pixels += 1;
+        self.error += error;
+    }
+}
+
 /// Pixels by class: of smooth ones, and of refined ones by the number of samples.
 #[derive(Clone)]
 pub(super) struct Tally {
@@ -47,15 +54,18 @@ impl Tally {
     }
 
     pub(super) fn take(&mut self, samples: u32, error: f64) {
-        let class = &mut self.classes[class(samples, error)];
-        class.pixels += 1;
-        class.error += error;
+        self.classes[class(samples, error)].take(error);
+    }
+
+    /// Takes in several pixels of a class.
+    pub(super) fn add_to(&mut self, class: usize, more: &Class) {
+        self.classes[class].pixels += more.pixels;
+        self.classes[class].error += more.error;
     }
 
     pub(super) fn add(&mut self, other: &Self) {
-        for (class, other) in self.classes.iter_mut().zip(&other.classes) {
-            class.pixels += other.pixels;
-            class.error += other.error;
+        for (class, other) in other.classes.iter().enumerate() {
+            self.add_to(class, other);
         }
     }
 

@@ -3,7 +3,7 @@
 use super::control::Control;
 use super::finish::{Accuracy, Forecast};
 use super::first::Where;
-use super::plan::{Plan, SMOOTH_SAMPLES, Tally, class, plan};
+use super::plan::{Class, Plan, SMOOTH_SAMPLES, Tally, class, plan};
 use super::refine::{Found, Spread, refine};
 use super::smooth::{Analysis, Neighbours, analyse};
 use super::table::{Expected, Table};
@@ -150,15 +150,17 @@ impl Picture {
         });
     }
 
-    /// Looks at the first samples, and gives what was found by tile; nothing of tiles that
-    /// were not reached.
-    fn look(&self, lanes: Width) -> Vec<Option<Analysis>> {
+    /// Looks at the first samples of tiles that were reached.
+    fn look(&self, lanes: Width) -> Vec<Analysis> {
         let (tiles, across) = (&self.tiles, self.across);
-        let look = |index: usize| {
-            let around = Neighbours { tiles, across, index };
-            (!tiles[index].place.is_empty()).then(|| analyse(&around, self.exposure, lanes))
-        };
-        (0..tiles.len()).into_par_iter().map(look).collect()
+        let mut found = vec![Analysis::EMPTY; tiles.len()];
+        found.par_iter_mut().enumerate().for_each(|(index, found)| {
+            if !tiles[index].place.is_empty() {
+                let around = Neighbours { tiles, across, index };
+                analyse(&around, self.exposure, lanes, found);
+            }
+        });
+        found
     }
 
     /// One sample at the centre of each pixel.
@@ -173,8 +175,9 @@ impl Picture {
         // The samples stay the values, and are not put to where they are already.
         let found = self.look(job.lanes);
         for (tile, found) in self.tiles.iter_mut().zip(found) {
-            if let Some(found) = found {
-                tile.error = found.error;
+            if !tile.place.is_empty() {
+                let pixels = tile.pixels();
+                tile.error.copy_from_slice(&found.error[..pixels]);
             }
         }
         Why::Samples
@@ -224,7 +227,7 @@ impl Picture {
         self.first_samples(job, control, Where::Anywhere);
         let found = self.look(job.lanes);
         for (tile, found) in self.tiles.iter_mut().zip(found) {
-            if let Some(found) = found {
+            if !tile.place.is_empty() {
                 tile.take(found);
             }
         }
@@ -321,14 +324,14 @@ impl Picture {
     }
 
     /// Adds up what is expected of all pixels.
-    fn tally(&self, expected: &Expected) -> Tally {
+    fn tally(&mut self, expected: &Expected) -> Tally {
         let part = self.tiles.len().div_ceil(PARTS).max(1);
         let parts: Vec<Tally> = self
             .tiles
-            .par_chunks(part)
+            .par_chunks_mut(part)
             .map(|tiles| {
                 let mut tally = Tally::new();
-                tiles.iter().for_each(|tile| tile.tally(expected, &mut tally));
+                tiles.iter_mut().for_each(|tile| tile.tally(expected, &mut tally));
                 tally
             })
             .collect();
@@ -337,8 +340,9 @@ impl Picture {
         all
     }
 
-    fn predicted(&self) -> f64 {
-        let tally = self.tally(&self.table.expected());
+    fn predicted(&mut self) -> f64 {
+        let expected = self.table.expected();
+        let tally = self.tally(&expected);
         ((tally.error() + self.missed) / self.pixels()).sqrt()
     }
 
@@ -374,8 +378,11 @@ impl Tile {
 
     /// Takes in what was found by looking at first samples.
     fn take(&mut self, found: Analysis) {
-        self.colour = found.colour;
-        self.error = found.error;
+        let pixels = self.pixels();
+        self.colour.copy_from_slice(&found.colour[..pixels]);
+        self.error.copy_from_slice(&found.error[..pixels]);
+        self.refined.reserve(found.edges.len());
+        self.standing.reserve(found.edges.len());
         for mut edge in found.edges {
             if !edge.is_odd {
                 // Its first sample had no part in the decision.
@@ -387,12 +394,23 @@ impl Tile {
         }
     }
 
-    fn tally(&self, expected: &Expected, tally: &mut Tally) {
-        for (index, error) in self.error.iter().enumerate() {
-            if !self.is_refined.has(index) {
-                tally.take(0, f64::from(*error));
+    fn tally(&mut self, expected: &Expected, tally: &mut Tally) {
+        if self.smooth.is_none() {
+            let mut smooth: Vec<(usize, Class)> = Vec::new();
+            for (index, error) in self.error.iter().enumerate() {
+                if self.is_refined.has(index) {
+                    continue;
+                }
+                let error = f64::from(*error);
+                let class = class(0, error);
+                match smooth.iter_mut().find(|(other, _)| *other == class) {
+                    Some((_, known)) => known.take(error),
+                    None => smooth.push((class, Class { pixels: 1, error })),
+                }
             }
+            self.smooth = Some(smooth);
         }
+        self.smooth.iter().flatten().for_each(|(class, of)| tally.add_to(*class, of));
         for (pixel, standing) in self.refined.iter().zip(&self.standing) {
             if standing.count < 2 {
                 tally.take(0, f64::from(self.error[usize::from(pixel.index)]));

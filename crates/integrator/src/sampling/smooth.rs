@@ -40,11 +40,12 @@ const ALONG: usize = 9;
 const COLOURS: usize = 15;
 
 /// What was found of a tile.
+#[derive(Clone)]
 pub(super) struct Analysis {
     /// The values of smooth pixels; of others as they were.
-    pub(super) colour: Vec<Rgb>,
+    pub(super) colour: [Rgb; TILE],
     /// The expected squares of their errors.
-    pub(super) error: Vec<f32>,
+    pub(super) error: [f32; TILE],
     /// Those to be refined.
     pub(super) edges: Vec<Pixel>,
 }
@@ -153,9 +154,10 @@ impl Halo {
     fn edges(&self) -> [u32; AREA] {
         let mut differs = [0; AREA];
         for step in AROUND {
-            for at in SIDE + 1..AREA - SIDE - 1 {
+            let inside = SIDE + 1..AREA - SIDE - 1;
+            for (at, differs) in inside.clone().zip(&mut differs[inside]) {
                 let other = at.wrapping_add_signed(step);
-                differs[at] |= (self.signature[at] ^ self.signature[other]) & self.is_there[other];
+                *differs |= (self.signature[at] ^ self.signature[other]) & self.is_there[other];
             }
         }
         differs
@@ -194,14 +196,19 @@ impl Halo {
     }
 }
 
+impl Analysis {
+    /// Of nothing yet.
+    pub(super) const EMPTY: Self =
+        Self { colour: [[0.0; 3]; TILE], error: [0.0; TILE], edges: Vec::new() };
+}
+
 /// Looks at the first samples of a tile.
-pub(super) fn analyse(around: &Neighbours<'_>, exposure: f64, width: Width) -> Analysis {
+pub(super) fn analyse(around: &Neighbours<'_>, exposure: f64, width: Width, to: &mut Analysis) {
     let tile = &around.tiles[around.index];
     let halo = Halo::new(around, exposure);
     let differs = halo.edges();
-    let mut colour = tile.colour.clone();
-    let mut error = vec![0.0; tile.pixels()];
-    let mut edges = Vec::new();
+    let Analysis { colour, error, edges } = to;
+    colour[..tile.pixels()].copy_from_slice(&tile.colour);
     let mut fits = Fits { values: [[0.0; TILE]; 3], residual: [0.0; TILE] };
     dispatch(width, Fit { halo: &halo, fits: &mut fits });
     for k in 0..tile.pixels() {
@@ -233,7 +240,6 @@ pub(super) fn analyse(around: &Neighbours<'_>, exposure: f64, width: Width) -> A
         pixel.nearness = if is_odd { 0 } else { halo.nearness(at) };
         edges.push(pixel);
     }
-    Analysis { colour, error, edges }
 }
 
 /// What comes of planes through the pixels of a tile and their neighbours, in rows of
@@ -261,8 +267,7 @@ impl Work for Fit<'_> {
         for (at, is_there) in halo.is_there.iter().enumerate() {
             moments[COUNT][at] = if *is_there == 0 { 0.0 } else { 1.0 };
         }
-        for at in 0..AREA {
-            let (x, y) = (halo.x[at], halo.y[at]);
+        for (at, (&x, &y)) in halo.x.iter().zip(&halo.y).enumerate() {
             moments[PLACE][at] = x;
             moments[PLACE + 1][at] = y;
             moments[SQUARES][at] = x * x;

@@ -1,5 +1,6 @@
 //! What is known of the pixels of a tile.
 
+use super::plan::Class;
 use crate::{Rgb, Seen, TILE_SIDE};
 use lancer_film::Window;
 
@@ -27,6 +28,8 @@ pub(super) struct Tile {
     pub(super) is_thin: Set,
     /// Those of the mixed ones whose neighbours are refined for it.
     pub(super) is_followed: Set,
+    /// Those that are not refined by their classes, where that is known.
+    pub(super) smooth: Option<Vec<(usize, Class)>>,
     /// So many samples its pixels should have at least, if any should.
     pub(super) least: Vec<u32>,
     /// The refined pixels, in the order in which that was found necessary.
@@ -89,6 +92,7 @@ impl Tile {
             is_mixed: Set::default(),
             is_thin: Set::default(),
             is_followed: Set::default(),
+            smooth: None,
             least: Vec::new(),
             refined: Vec::new(),
             standing: Vec::new(),
@@ -110,6 +114,7 @@ impl Tile {
     pub(super) fn refine(&mut self, pixel: Pixel) {
         let index = usize::from(pixel.index);
         self.is_refined.put(index);
+        self.smooth = None;
         if pixel.is_odd {
             self.is_mixed.put(index);
             self.odd.push(self.refined.len() as u16);

@@ -22,7 +22,7 @@ impl<P: Places> Batch<'_, P> {
         (light, marks): (&mut Vectors<L::Real>, &mut L::Real),
     ) {
         let is_clear = is_grey && self.buffers.hiding[index].is_clear;
-        let (mut strengths, mut own_marks, mut ends) = ([0.0; MOST], [0.0; MOST], [[0.0; MOST]; 3]);
+        let (mut strengths, mut own, mut ends) = ([0.0; MOST], [0.0; MOST], [[0.0; MOST]; 3]);
         let (mut clear, mut asked) = (0, 0);
         for k in lanes_of(lit.matter.bits()) {
             let point = Point::from(lit.point.lane(k));
@@ -31,7 +31,7 @@ impl<P: Places> Batch<'_, P> {
                 continue;
             };
             self.counts.shadow += 1;
-            (strengths[k], own_marks[k]) = (strength, mark);
+            (strengths[k], own[k]) = (strength, mark);
             if is_clear && ball.is_before_facet() {
                 clear |= 1 << k;
                 continue;
@@ -43,7 +43,7 @@ impl<P: Places> Batch<'_, P> {
                 end[k] = (point + way)[axis];
             }
         }
-        let (strength, mark) = (lanes.load(&strengths), lanes.load(&own_marks));
+        let (strength, mark) = (lanes.load(&strengths), lanes.load(&own));
         if clear != 0 {
             let clear = lanes.mask(clear);
             light.x = clear.select(light.x + strength, light.x);
@@ -57,7 +57,10 @@ impl<P: Places> Batch<'_, P> {
         let asked = (&rays, 1.0, lanes.mask(asked));
         lanes.vectorize(
             #[inline(always)]
-            || self.cast(lanes, asked, (strength, mark), (lit.at, index), is_grey, (light, marks)),
+            || {
+                let to = (light, marks);
+                self.cast(lanes, asked, (strength, mark), (lit.at, index), is_grey, to);
+            },
         );
     }
 }

@@ -146,8 +146,7 @@ impl<P: Places> Batch<'_, P> {
             From::Ball(centre, radius) => {
                 let numbers = dimension(met_on, index);
                 let ball = (source, index, (centre, *radius));
-                let sums = (light, marks);
-                return self.shine_from_ball(lanes, ball, numbers, lit, is_grey, sums);
+                return self.shine_from_ball(lanes, ball, numbers, lit, is_grey, (light, marks));
             }
         };
         let along = dot(&way, &lit.shading);
@@ -185,8 +184,8 @@ impl<P: Places> Batch<'_, P> {
             Some(lamp) => (Vectors::splat_point(lanes, lamp) - lit.origin, 1.0),
         };
         let rays = Rays::new(lanes, lit.origin, direction);
-        let sums = (light, marks);
-        self.cast(lanes, (&rays, t_max, asked), (strength, mark), (lit.at, index), is_grey, sums);
+        let to = (light, marks);
+        self.cast(lanes, (&rays, t_max, asked), (strength, mark), (lit.at, index), is_grey, to);
     }
 
     /// Adds what arrives of light of a strength that comes along rays, against them, from `t_max`.
