@@ -2,9 +2,12 @@
 #![forbid(unsafe_code)]
 
 mod bench;
+mod calibrate;
+mod chart;
 mod docs;
 mod gallery;
 mod goldens;
+mod sections;
 mod stability;
 mod tidy;
 
@@ -38,6 +41,10 @@ enum Command {
     Bench(bench::BenchArgs),
     /// Ask many rays and compare with what is exactly so (build with --release)
     Stability(stability::StabilityArgs),
+    /// Hold the errors that renders predict against true ones (build with --release)
+    Calibrate(calibrate::CalibrateArgs),
+    /// Draw the charts of the docs anew (build with --release)
+    Chart(chart::ChartArgs),
 }
 
 /// Why a chore was not done.
@@ -58,6 +65,8 @@ fn main() -> ExitCode {
         Command::Tidy => tidy::run(),
         Command::Bench(args) => bench::run(&args),
         Command::Stability(args) => stability::run(&args),
+        Command::Calibrate(args) => calibrate::run(&args),
+        Command::Chart(args) => chart::run(&args),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -159,7 +159,7 @@ fn parse_stop(text: &str) -> Result<Stop, String> {
     text.parse()
 }
 
-fn strategy_parser() -> impl TypedValueParser<Value = Strategy> {
+pub(crate) fn strategy_parser() -> impl TypedValueParser<Value = Strategy> {
     PossibleValuesParser::new(Strategy::ALL.iter().map(|strategy| strategy.name()))
         .try_map(|name| Strategy::from_name(&name).ok_or("no such strategy"))
 }

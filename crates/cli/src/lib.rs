@@ -28,6 +28,7 @@ mod stats;
 
 use args::{Cli, Command};
 use clap::Parser;
+use std::ffi::OsString;
 use std::io::Write;
 use std::process::ExitCode;
 
@@ -62,12 +63,20 @@ impl Failure {
 /// Runs the program with the process's arguments.
 #[must_use]
 pub fn main() -> ExitCode {
-    let cli = match Cli::try_parse() {
+    let words: Vec<_> = std::env::args_os().collect();
+    ExitCode::from(run(&words))
+}
+
+/// Runs the program with a command line, whose first word is its own name, and returns the exit
+/// code.
+#[must_use]
+pub fn run(words: &[OsString]) -> u8 {
+    let cli = match Cli::try_parse_from(words) {
         Ok(cli) => cli,
         Err(error) => {
             // Help and the version are no errors; if nobody listens, so be it.
             let _ = error.print();
-            return ExitCode::from(if error.use_stderr() { 2 } else { 0 });
+            return if error.use_stderr() { 2 } else { 0 };
         }
     };
     let result = match &cli.command {
@@ -75,17 +84,17 @@ pub fn main() -> ExitCode {
         Command::Check(args) => check::run(args),
         Command::Compare(args) => compare::run(args),
         Command::Export(args) => export::run(args),
-        Command::Chart(args) => chart::run(args),
+        Command::Chart(args) => chart::run(args, words),
     };
     let (message, code) = match result {
-        Ok(()) => return ExitCode::SUCCESS,
-        Err(Failure::Told) => return ExitCode::from(1),
-        Err(Failure::Interrupted) => return ExitCode::from(INTERRUPTED),
+        Ok(()) => return 0,
+        Err(Failure::Told) => return 1,
+        Err(Failure::Interrupted) => return INTERRUPTED,
         Err(Failure::Work(message)) => (message, 1),
         Err(Failure::Usage(message)) => (message, 2),
     };
     report::say(format_args!("error: {message}"));
-    ExitCode::from(code)
+    code
 }
 
 /// Writes a line to standard output.

@@ -1,5 +1,6 @@
 //! The program itself, run as a user runs it.
 
+mod chart;
 mod export;
 mod sampling;
 #[cfg(unix)]

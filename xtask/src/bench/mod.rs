@@ -6,7 +6,7 @@ mod counts;
 mod culling;
 mod embree;
 mod judge;
-mod machine;
+pub(crate) mod machine;
 pub(crate) mod page;
 mod peers;
 mod pictures;

@@ -1,8 +1,9 @@
 //! What may be written about charts.
 
 use crate::args::{EngineName, engine_parser, parse_exposure, parse_size, parse_threads};
+use crate::asked::strategy_parser;
 use clap::Args;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::TypedValueParser;
 use lancer_film::Size;
 use lancer_integrator::Strategy;
 use lancer_scene::Exposure;
@@ -103,11 +104,6 @@ fn sampling_engine_parser() -> impl TypedValueParser<Value = EngineName> {
         SAMPLED => Ok(engine),
         name => Err(format!("the engine {name} sees nothing but pixels' centres")),
     })
-}
-
-fn strategy_parser() -> impl TypedValueParser<Value = Strategy> {
-    PossibleValuesParser::new(Strategy::ALL.iter().map(|strategy| strategy.name()))
-        .try_map(|name| Strategy::from_name(&name).ok_or("no such strategy"))
 }
 
 fn parse_finest(text: &str) -> Result<f64, String> {

@@ -9,11 +9,13 @@ use crate::args::is_standard;
 use crate::files::{BesideScene, Target, read};
 use crate::{Failure, interrupt, print_line, report};
 use args::Picture;
+use lancer_film::Size;
 use lancer_integrator::{KernelSettings, RenderError, Width};
 use lancer_judge::{Caption, Comparison, Ladder, Reference, Series, Subject, csv, draw, html};
 use lancer_output::{Format, encode_rgb8};
 use lancer_scene::{Exposure, PixelCount, Scene};
 use lancer_xml::Options;
+use std::ffi::OsString;
 use std::io::IsTerminal;
 use std::num::NonZeroUsize;
 use std::time::Duration;
@@ -27,25 +29,45 @@ const LONGEST_REFERENCE: Duration = Duration::from_secs(300);
 /// A median of so many is not one that something else slowed down.
 const DRAWS: u32 = 3;
 
-pub(crate) fn run(args: &ChartArgs) -> Result<(), Failure> {
+/// `words` are those of the command line, for the caption.
+pub(crate) fn run(args: &ChartArgs, words: &[OsString]) -> Result<(), Failure> {
     let outputs = Outputs::new(args)?;
     let lanes = Width::from_environment()
         .map_err(|error| Failure::Usage(format!("LANCER_LANES: {error}")))?;
     let (name, bytes) = read(&args.scene)?;
-    let mut scene = scene(&name, &bytes, args)?;
-    rayon::ThreadPoolBuilder::new()
+    let scene = scene(&name, &bytes, args)?;
+    let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(args.threads.map_or(0, NonZeroUsize::get))
-        .build_global()
+        .build()
         .map_err(|error| Failure::work(format_args!("could not start the threads: {error}")))?;
-
-    let told = Told { quiet: args.quiet };
     let kernel = KernelSettings { lanes, ..KernelSettings::default() };
-    let stops = {
-        let subject = Subject::new(&scene, args.exposure, kernel, Some(interrupt::watch()));
-        subject.map_err(failure)?.stops
+    let size = Size::new(scene.camera.px_width.get(), scene.camera.px_height.get());
+    let (comparison, notes) = pool.install(|| compared(args, scene, kernel))?;
+    let caption = Caption {
+        title: format!("{name}, {size}, {}", threads(pool.current_num_threads())),
+        notes,
+        command: command(words),
     };
-    scene.camera.exposure = Exposure::Stops(stops);
-    let subject = Subject::new(&scene, None, kernel, Some(interrupt::watch())).map_err(failure)?;
+    outputs.write(&comparison, &caption)?;
+    if !outputs.take_standard_output()
+        && let Some(advice) = comparison.advice()
+    {
+        print_line(&advice)?;
+    }
+    Ok(())
+}
+
+/// What all reach, and what is to be said of it.
+fn compared(
+    args: &ChartArgs,
+    mut scene: Scene,
+    kernel: KernelSettings,
+) -> Result<(Comparison, Vec<String>), Failure> {
+    let told = Told { quiet: args.quiet };
+    let cancel = Some(interrupt::watch());
+    let exposed = Subject::new(&scene, args.exposure, kernel, cancel).map_err(failure)?;
+    scene.camera.exposure = Exposure::Stops(exposed.stops);
+    let subject = Subject::new(&scene, None, kernel, cancel).map_err(failure)?;
     told.step("the reference");
     let reference = subject.reference(0.1 * args.finest, LONGEST_REFERENCE).map_err(failure)?;
     let ladder = Ladder { finest: args.finest, longest: LONGEST, draws: DRAWS };
@@ -69,18 +91,7 @@ pub(crate) fn run(args: &ChartArgs) -> Result<(), Failure> {
     }
     let comparison = Comparison::new(series);
     notes.extend(note_of_peers(&comparison));
-    let caption = Caption {
-        title: format!("{name}, {}, {}", subject.size(), threads(rayon::current_num_threads())),
-        notes,
-        command: command(std::env::args()),
-    };
-    outputs.write(&comparison, &caption)?;
-    if !outputs.take_standard_output()
-        && let Some(advice) = comparison.advice()
-    {
-        print_line(&advice)?;
-    }
-    Ok(())
+    Ok((comparison, notes))
 }
 
 fn failure(error: RenderError) -> Failure {
@@ -91,7 +102,8 @@ fn failure(error: RenderError) -> Failure {
 }
 
 fn interrupted() -> Failure {
-    Failure::work("interrupted; no chart was written")
+    report::say(format_args!("error: interrupted; no chart was written"));
+    Failure::Interrupted
 }
 
 /// A person at a terminal is told what is being done.
@@ -165,8 +177,9 @@ fn note_of_peers(comparison: &Comparison) -> Vec<String> {
 }
 
 /// The command line, with quotation marks where a shell needs them.
-fn command(words: impl Iterator<Item = String>) -> String {
-    let quoted = |word: String| {
+fn command(words: &[OsString]) -> String {
+    let quoted = |word: &OsString| {
+        let word = word.to_string_lossy().into_owned();
         let is_plain =
             |c: char| c.is_ascii_alphanumeric() || matches!(c, '.' | ',' | '/' | '-' | '_' | '=');
         if !word.is_empty() && word.chars().all(is_plain) {
@@ -175,7 +188,7 @@ fn command(words: impl Iterator<Item = String>) -> String {
             format!("'{}'", word.replace('\'', "'\\''"))
         }
     };
-    let words = words.skip(1).map(quoted);
+    let words = words.iter().skip(1).map(quoted);
     std::iter::once("lancer".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
 }
 
@@ -252,7 +265,7 @@ mod tests {
     #[test]
     fn the_command_can_be_copied() {
         let words = ["/usr/bin/lancer", "chart", "a scene's.xml", "--size", "40x30", ""];
-        let command = command(words.into_iter().map(str::to_owned));
+        let command = command(&words.map(OsString::from));
         assert_eq!(command, "lancer chart 'a scene'\\''s.xml' --size 40x30 ''");
     }
 
