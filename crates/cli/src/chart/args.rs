@@ -12,13 +12,12 @@ use std::path::{Path, PathBuf};
 
 /// What to compare on a chart.
 #[derive(Debug, Args)]
-#[group(id = "chart_output", required = true, multiple = true, args = ["output", "csv"])]
 pub struct ChartArgs {
     /// The scene file; `-` is standard input
     pub scene: PathBuf,
 
     /// The chart's file: .svg, .png, or .html with all figures in a table
-    #[arg(short, long, value_name = "OUT")]
+    #[arg(short, long, value_name = "OUT", required_unless_present = "csv")]
     pub output: Option<PathBuf>,
 
     /// Write the figures as comma-separated values; `-` is standard output
