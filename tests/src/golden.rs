@@ -14,7 +14,7 @@
 //! ```
 //!
 //! Each is a picture `tests/goldens/NAME.ENGINE.png`. Scenes may stand in folders,
-//! which are then part of their names; `scenes/invalid` and `scenes/stability`, which
+//! which are then part of their names; `scenes/bench`, `scenes/invalid` and `scenes/stability`, which
 //! has right values instead of goldens, are not looked into.
 
 use crate::paths::{Beside, all_with_extension, goldens, name_of, scenes};
@@ -82,7 +82,7 @@ fn problem(what: impl std::fmt::Display) -> Problem {
 /// golden belongs to nothing.
 pub fn all() -> Result<Vec<Golden>, Vec<Problem>> {
     let (mut found, mut problems) = (Vec::new(), Vec::new());
-    let without_goldens = ["invalid", "stability"].map(|folder| scenes().join(folder));
+    let without_goldens = ["bench", "invalid", "stability"].map(|folder| scenes().join(folder));
     let walk = |extension| {
         let mut files = all_with_extension(&scenes(), extension);
         files.retain(|file| !without_goldens.iter().any(|folder| file.starts_with(folder)));

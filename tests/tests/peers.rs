@@ -5,8 +5,8 @@ use lancer::peers::{self, Peer, PeerPicture, Setting};
 use lancer_export::{Format, export};
 use lancer_film::Size;
 use lancer_integrator::{RenderSettings, Whitted, render};
-use lancer_scene::{Exposure, PixelCount, Scene, Shadows, Stops};
-use lancer_tests::paths;
+use lancer_scene::{Exposure, PixelCount, Scene, Shadows, Spectrum, Stops};
+use lancer_tests::paths::{self, Beside};
 use std::fs;
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -23,19 +23,13 @@ const CODES: f64 = 1.0 / 131_070.0 + 2e-6;
 /// Pixels differ by less among their neighbours, in both pictures, or there is an edge.
 const SMOOTH: f32 = 0.02;
 
-struct Beside;
-
-impl lancer_xml::Files for Beside {
-    fn read(&self, path: &str) -> Result<Vec<u8>, String> {
-        fs::read(paths::scenes().join(path)).map_err(|e| e.to_string())
-    }
-}
-
-/// A scene of the folder, so large, with light that clear things stop where it is not `tinted`,
-/// and as bright as its 99 in 100 darkest pixels allow.
+/// A scene of the folder, so large; clear things let no light through to a surface, since the
+/// others know no tinted shadows.
 fn scene(name: &str, size: Size) -> Scene {
     let text = fs::read(paths::scenes().join(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
-    let parsed = lancer_xml::parse_with(&text, &lancer_xml::Options::default(), &Beside);
+    let path = paths::scenes().join(name);
+    let folder = path.parent().expect("it is in a folder");
+    let parsed = lancer_xml::parse_with(&text, &lancer_xml::Options::default(), &Beside(folder));
     let mut scene = parsed.scene.unwrap_or_else(|| panic!("{name} is valid"));
     scene.camera.px_width = PixelCount::new(size.width).expect("above 0");
     scene.camera.px_height = PixelCount::new(size.height).expect("above 0");
@@ -48,7 +42,7 @@ fn ours(scene: &mut Scene) -> Vec<[f32; 3]> {
     let engine = Whitted::with_cutoff(1e-5).expect("in range");
     let settings = RenderSettings { for_display: true, ..RenderSettings::default() };
     let film = render(scene, &engine, &settings).unwrap_or_else(|e| panic!("{e}")).film;
-    let stops = film.exposure().expect("it is exposed");
+    let stops = film.stops().expect("it is exposed");
     scene.camera.exposure = Exposure::Stops(Stops::new(stops).expect("in range"));
     let factor = libm::exp2(stops) as f32;
     film.pixels().iter().map(|pixel| pixel.map(|c| (c * factor).clamp(0.0, 1.0))).collect()
@@ -85,6 +79,9 @@ fn smooth(picture: &[[f32; 3]], size: Size) -> Vec<bool> {
     };
     (0..picture.len()).map(is_smooth).collect()
 }
+
+/// What noise and pixels that only look smooth may make of one of Mitsuba's.
+const MITSUBA: f64 = 0.2;
 
 /// How two pictures differ where both are smooth.
 struct Difference {
@@ -169,6 +166,42 @@ fn pov_ray_sees_mirrors_and_glass_as_we_do() {
     }
     for name in ["glass.xml", "absorption.xml", "first.xml", "underwater.xml"] {
         check(&povray, name, 1e-3, 10);
+    }
+}
+
+/// Its samples lie anywhere in a pixel and choose one lamp each, so that only means agree.
+#[test]
+fn mitsuba_sees_matte_things_as_we_do() {
+    let Some(mitsuba) = peer(Format::Mitsuba) else { return };
+    let size = Size::new(200, 150);
+    for name in [
+        "all_shapes.xml",
+        "checkers.xml",
+        "falloff.xml",
+        "instances.xml",
+        "orthographic.xml",
+        "shapes/mesh.xml",
+    ] {
+        let mut scene = scene(name, size);
+        // It would light the scene.
+        scene.background = Spectrum::NONE;
+        let ours = ours(&mut scene);
+        let exported = export(&scene, Format::Mitsuba, "scene");
+        let setting = Setting::Samples { count: 64, seed: 1 };
+        let picture = mitsuba.render(&exported, size, TWO, setting, TIMEOUT);
+        let theirs = picture.unwrap_or_else(|e| panic!("{name}: {e}")).linear;
+        let (mut sum, mut most, mut judged) = (0.0, 0, 0);
+        for (index, _) in smooth(&ours, size).iter().enumerate().filter(|(_, smooth)| **smooth) {
+            let off = |i: usize| f64::from(theirs[index][i].clamp(0.0, 1.0) - ours[index][i]);
+            let off = [off(0), off(1), off(2)];
+            judged += 1;
+            sum += off.iter().sum::<f64>() / 3.0;
+            most += usize::from(off.iter().any(|off| off.abs() > MITSUBA));
+        }
+        let mean = sum / f64::from(judged);
+        println!("{name}: {judged} pixels, mean difference {mean:+.1e}, {most} beyond {MITSUBA}");
+        assert!(mean.abs() < 1e-3, "{name}: Mitsuba's pixels are brighter by {mean:e}");
+        assert!(most * 50 < judged as usize, "{name}: {most} of {judged} pixels differ");
     }
 }
 

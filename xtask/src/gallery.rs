@@ -14,7 +14,7 @@ const HEAD: &str = "\
 
 Each shows one thing. The pictures are the goldens of the tests, so they are what the present program makes; scenes render larger by
 themselves. [invalid](invalid) holds scenes with mistakes; the messages for them are in tests/snapshots/diagnostics. [stability](stability)
-holds scenes that are hard to get right, with the right values.
+holds scenes that are hard to get right, with the right values, and [bench](bench) scenes that time and accuracy are measured on.
 ";
 
 /// Writes the page, or says whether it is up to date.

@@ -1,5 +1,7 @@
 //! The command line: what may be written, and what it means.
 
+use crate::asked::AskedArgs;
+pub use crate::chart::ChartArgs;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 use lancer_film::{LayerKind, Size, Window};
@@ -26,9 +28,10 @@ Environment:
   NO_COLOR      if set, warnings and errors have no colours
 
 Exit codes:
-  0  done
-  1  the scene or the work failed, or the pictures differ
-  2  wrong usage";
+  0    done
+  1    the scene or the work failed, or the pictures differ
+  2    wrong usage
+  130  interrupted: the picture is the one so far, or there is none";
 
 /// Lancer, a ray tracer: text scene in, picture out.
 #[derive(Debug, Parser)]
@@ -54,6 +57,9 @@ pub enum Command {
     /// Write a scene in the language of another renderer
     #[command(after_help = EXIT_CODES)]
     Export(ExportArgs),
+    /// Chart time against error: a scene with all ways of sampling and their settings
+    #[command(after_help = EXIT_CODES)]
+    Chart(ChartArgs),
 }
 
 /// What to render, how, and where to.
@@ -78,18 +84,23 @@ pub struct RenderArgs {
     #[allow(missing_docs, reason = "the doc comment would replace the computed help")]
     pub engine: EngineName,
 
+    #[command(flatten)]
+    #[allow(missing_docs, reason = "the doc comment would replace the program's own")]
+    pub asked: AskedArgs,
+
     /// How bright the picture is shown: a number of stops (each doubles it), or auto. Else the
     /// camera's own exposure
     #[arg(long, value_name = "STOPS", value_parser = parse_exposure, allow_hyphen_values = true)]
     pub exposure: Option<Exposure>,
 
     /// Do not follow rays that together could change a pixel by no more than this part of display
-    /// white (whitted; 0.0001 by default)
+    /// white (whitted; by default a fifth of the error that is asked for, and 0.0001 if none is)
     #[arg(long, value_name = "C", value_parser = parse_cutoff, allow_hyphen_values = true)]
     pub cutoff: Option<Whitted>,
 
-    /// Write also what each pixel shows first, as layers of an EXR picture: depth, normal, albedo,
-    /// shape, instance, with commas between them, or all (whitted)
+    /// Write also what each pixel shows first, and how good it is, as layers of an EXR picture:
+    /// depth, normal, albedo, shape, instance, error, samples, with commas between them, or all
+    /// (whitted)
     #[arg(long, value_name = "LAYERS", value_parser = parse_layers)]
     pub layers: Option<LayerKinds>,
 
@@ -220,7 +231,7 @@ impl fmt::Debug for EngineName {
     }
 }
 
-fn engine_parser() -> impl TypedValueParser<Value = EngineName> {
+pub(crate) fn engine_parser() -> impl TypedValueParser<Value = EngineName> {
     PossibleValuesParser::new(engines().iter().map(|engine| engine.name()))
         .try_map(|name| engine_by_name(&name).map(EngineName).ok_or("no such engine"))
 }
@@ -265,7 +276,7 @@ fn number(text: &str) -> Option<u32> {
     text.bytes().all(|b| b.is_ascii_digit()).then(|| text.parse().ok()).flatten()
 }
 
-fn parse_size(text: &str) -> Result<Size, String> {
+pub(crate) fn parse_size(text: &str) -> Result<Size, String> {
     text.split_once(['x', 'X'])
         .and_then(|(width, height)| Some(Size::new(side(width)?, side(height)?)))
         .ok_or_else(|| {
@@ -289,14 +300,14 @@ fn parse_crop(text: &str) -> Result<Window, String> {
 /// More threads than this are surely a slip.
 const MOST_THREADS: usize = 1024;
 
-fn parse_threads(text: &str) -> Result<NonZeroUsize, String> {
+pub(crate) fn parse_threads(text: &str) -> Result<NonZeroUsize, String> {
     number(text)
         .and_then(|threads| NonZeroUsize::new(threads as usize))
         .filter(|threads| threads.get() <= MOST_THREADS)
         .ok_or_else(|| format!("expected a whole number from 1 to {MOST_THREADS}"))
 }
 
-fn parse_exposure(text: &str) -> Result<Exposure, String> {
+pub(crate) fn parse_exposure(text: &str) -> Result<Exposure, String> {
     if text == "auto" {
         return Ok(Exposure::Auto);
     }
@@ -376,7 +387,7 @@ mod tests {
         assert!(parse_cutoff("1e-7").is_ok_and(|whitted| whitted.cutoff() == 1e-7));
         let layers = parse_layers("normal,depth,normal").map(|layers| layers.0);
         assert_eq!(layers, Ok(vec![LayerKind::Normal, LayerKind::Depth]));
-        assert_eq!(parse_layers("all").map(|layers| layers.0.len()), Ok(5));
+        assert_eq!(parse_layers("all").map(|layers| layers.0.len()), Ok(7));
         assert!(parse_layers("").is_err() && parse_layers("depth,colour").is_err());
     }
 

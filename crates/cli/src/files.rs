@@ -2,7 +2,6 @@
 
 use crate::Failure;
 use crate::args::is_standard;
-use crate::interrupt;
 use std::fs;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
@@ -185,9 +184,6 @@ impl Target {
         file.write_all(bytes)?;
         if let Ok(old) = fs::metadata(path) {
             file.as_file().set_permissions(old.permissions())?;
-        }
-        if interrupt::happened() {
-            return Err(io::Error::other("interrupted"));
         }
         file.persist(path)?;
         Ok(())

@@ -14,7 +14,7 @@ pub(crate) fn watch() -> &'static AtomicBool {
         // It fails where another handler is set already: then ours is.
         let _ = ctrlc::set_handler(|| {
             if INTERRUPTED.swap(true, Ordering::Relaxed) {
-                std::process::exit(1);
+                std::process::exit(crate::INTERRUPTED.into());
             }
         });
     }

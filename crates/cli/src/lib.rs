@@ -13,6 +13,8 @@
 #![forbid(unsafe_code)]
 
 pub mod args;
+pub mod asked;
+mod chart;
 mod check;
 mod compare;
 mod export;
@@ -41,7 +43,14 @@ enum Failure {
     /// The same, and the user has been told already.
     #[error("")]
     Told,
+    /// It was interrupted, and the user has been told already: exit code 130, by custom 128 and
+    /// the number of the signal.
+    #[error("")]
+    Interrupted,
 }
+
+/// The exit code after an interruption.
+const INTERRUPTED: u8 = 130;
 
 impl Failure {
     /// The work failed, and that is why.
@@ -66,10 +75,12 @@ pub fn main() -> ExitCode {
         Command::Check(args) => check::run(args),
         Command::Compare(args) => compare::run(args),
         Command::Export(args) => export::run(args),
+        Command::Chart(args) => chart::run(args),
     };
     let (message, code) = match result {
         Ok(()) => return ExitCode::SUCCESS,
         Err(Failure::Told) => return ExitCode::from(1),
+        Err(Failure::Interrupted) => return ExitCode::from(INTERRUPTED),
         Err(Failure::Work(message)) => (message, 1),
         Err(Failure::Usage(message)) => (message, 2),
     };

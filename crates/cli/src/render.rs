@@ -2,13 +2,13 @@
 
 use crate::args::{RenderArgs, is_standard};
 use crate::files::{BesideScene, Target, read};
-use crate::stats::{Seconds, Stats, Stopwatch, parts};
-use crate::{Failure, interrupt, preview, report};
+use crate::stats::{Sampled, Seconds, Stats, Stopwatch, parts};
+use crate::{Failure, asked, interrupt, preview, report};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use lancer_film::Size;
 use lancer_integrator::{
-    Engine, KernelSettings, Progress, RenderError, RenderSettings, Rendered, Trouble, Whitted,
-    Width, render,
+    Engine, KernelSettings, Progress, RenderError, RenderSettings, Rendered, Sampling, Trouble,
+    Whitted, Why, Width, render,
 };
 use lancer_output::{Format, encode, encode_exr_with_layers, to_rgb8};
 use lancer_scene::{PixelCount, Scene};
@@ -18,7 +18,9 @@ use std::num::NonZeroUsize;
 
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let outputs = Outputs::new(args)?;
-    let engine = engine(args)?;
+    let sampling = sampling(args)?;
+    let whitted = sampling.as_ref().map(|sampling| asked::whitted(args.cutoff, sampling));
+    let engine = whitted.as_ref().map_or(args.engine.engine(), |whitted| whitted);
     let lanes = Width::from_environment()
         .map_err(|error| Failure::Usage(format!("LANCER_LANES: {error}")))?;
     let mut seconds = Seconds::default();
@@ -48,27 +50,30 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     seconds.parse = stopwatch.lap();
 
     start_threads(args)?;
-    let rendered = draw(&scene, args, engine, lanes, &outputs)?;
+    let rendered = draw(&scene, args, engine, sampling, lanes, &outputs)?;
     if !args.quiet {
         tell_troubles(&name, &rendered);
     }
     seconds.render = stopwatch.lap();
 
     if let Some((target, format)) = &outputs.picture {
-        let bytes = match (&rendered.layers, &args.layers) {
-            (Some(layers), Some(kinds)) => encode_exr_with_layers(&rendered.film, layers, &kinds.0),
-            _ => encode(&rendered.film, *format, args.bits),
+        let Rendered { film, layers, quality, .. } = &rendered;
+        let bytes = match &args.layers {
+            Some(kinds) => {
+                encode_exr_with_layers(film, layers.as_ref(), quality.as_ref(), &kinds.0)
+            }
+            None => encode(film, *format, args.bits),
         };
         let bytes = bytes.map_err(Failure::work)?;
         seconds.encode = stopwatch.lap();
-        if interrupt::happened() {
-            return Err(interrupted());
-        }
         target.write(&bytes)?;
         seconds.write = stopwatch.lap();
     }
     seconds.total = stopwatch.total();
 
+    let sampled = sampling.as_ref().zip(rendered.accuracy.as_ref()).map(|(sampling, accuracy)| {
+        Sampled::new(sampling, accuracy, kept.pixels(), seconds.render)
+    });
     let stats = Stats {
         version: env!("CARGO_PKG_VERSION"),
         scene: name,
@@ -84,7 +89,8 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         rays: rendered.counts.into(),
         frame_peak: rendered.film.frame_peak(),
         exposure: rendered.film.stops(),
-        cutoff: (engine.name() == WHITTED).then(|| args.cutoff.unwrap_or_default().cutoff()),
+        cutoff: whitted.map(|whitted| whitted.cutoff()),
+        sampling: sampled,
         troubles: rendered.counts.troubles.into(),
         seconds,
     };
@@ -94,13 +100,17 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     if args.preview {
         preview::show(to_rgb8(&rendered.film).map_err(Failure::work)?)?;
     }
-    if talks(args) {
-        report::say(format_args!("{}", stats.summary()));
+    let was_cut_short = rendered.accuracy.is_some_and(|known| known.stopped == Why::Interrupted);
+    if was_cut_short {
+        report::say(format_args!("interrupted: this is the picture so far"));
     }
-    Ok(())
+    if !args.quiet {
+        report::say(format_args!("{}", stats.summary(kept)));
+    }
+    if was_cut_short { Err(Failure::Interrupted) } else { Ok(()) }
 }
 
-/// Progress and a summary are for a person at a terminal.
+/// Progress is for a person at a terminal.
 fn talks(args: &RenderArgs) -> bool {
     !args.quiet && std::io::stderr().is_terminal()
 }
@@ -221,23 +231,26 @@ fn scene(
     Ok(scene)
 }
 
-/// The engine as the arguments set it.
-fn engine(args: &RenderArgs) -> Result<&dyn Engine, Failure> {
-    let only_whitted = |what: &str| {
-        let name = args.engine.name();
-        Failure::Usage(format!("{what} means nothing to the engine {name}, only to {WHITTED}"))
-    };
-    let is_whitted = args.engine.name() == WHITTED;
-    if args.exposure.is_some() && !is_whitted {
-        return Err(only_whitted("--exposure"));
+/// What is asked about samples, of the engine that has them; others take nothing that is about
+/// samples, exposure, layers or a cutoff.
+fn sampling(args: &RenderArgs) -> Result<Option<Sampling>, Failure> {
+    if args.engine.name() == WHITTED {
+        return args.asked.sampling().map(Some).map_err(Failure::Usage);
     }
-    if args.layers.is_some() && !is_whitted {
-        return Err(only_whitted("--layers"));
-    }
-    match &args.cutoff {
-        Some(whitted) if is_whitted => Ok(whitted),
-        Some(_) => Err(only_whitted("--cutoff")),
-        None => Ok(args.engine.engine()),
+    let given = [
+        args.exposure.is_some().then_some("--exposure"),
+        args.layers.is_some().then_some("--layers"),
+        args.cutoff.is_some().then_some("--cutoff"),
+        args.asked.first_given(),
+    ];
+    match given.into_iter().flatten().next() {
+        None => Ok(None),
+        Some(what) => {
+            let name = args.engine.name();
+            Err(Failure::Usage(format!(
+                "{what} means nothing to the engine {name}, only to {WHITTED}"
+            )))
+        }
     }
 }
 
@@ -288,6 +301,7 @@ fn draw(
     scene: &Scene,
     args: &RenderArgs,
     engine: &dyn Engine,
+    sampling: Option<Sampling>,
     lanes: Width,
     outputs: &Outputs,
 ) -> Result<Rendered, Failure> {
@@ -302,7 +316,11 @@ fn draw(
         window: args.crop,
         for_display: outputs.shows_codes(args),
         exposure: args.exposure,
-        layers: args.layers.is_some(),
+        layers: args
+            .layers
+            .as_ref()
+            .is_some_and(|kinds| kinds.0.iter().any(|k| k.is_of_first_hit())),
+        sampling,
         kernel: KernelSettings { lanes, ..KernelSettings::default() },
         progress: progress.as_ref().map(|progress| progress as &Progress),
         cancel: Some(interrupt::watch()),
@@ -312,17 +330,21 @@ fn draw(
     if let Some(bar) = &bar {
         bar.finish_and_clear();
     }
-    result.map_err(|error| match error {
-        RenderError::Interrupted => interrupted(),
+    let nothing = || {
+        report::say(format_args!("error: interrupted; no picture was written"));
+        Failure::Interrupted
+    };
+    let rendered = result.map_err(|error| match error {
+        RenderError::Interrupted => nothing(),
         RenderError::Refused { .. } => {
             Failure::work(format_args!("{error}; use --engine {WHITTED}"))
         }
         other => Failure::work(other),
-    })
-}
-
-fn interrupted() -> Failure {
-    Failure::work("interrupted; no picture was written")
+    })?;
+    match &rendered.accuracy {
+        Some(known) if known.stopped == Why::Interrupted && known.samples == 0 => Err(nothing()),
+        _ => Ok(rendered),
+    }
 }
 
 fn progress_bar() -> ProgressBar {

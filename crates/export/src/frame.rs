@@ -2,7 +2,7 @@
 //! are counted in.
 
 use lancer_math::{Placement, Point, Vector, sin_cos_degrees, unit};
-use lancer_scene::{Camera, Cone, Cuboid, Projection};
+use lancer_scene::{Camera, Cone, Cuboid, Length, Projection};
 
 /// Three vectors from a point: the images of the coordinate axes and of the origin.
 #[derive(Debug, Clone, Copy)]
@@ -54,6 +54,10 @@ pub(crate) struct View {
     pub(crate) axis: Vector,
     pub(crate) right: Vector,
     pub(crate) up: Vector,
+    /// The diameter of the lens; 0 for a pinhole.
+    pub(crate) aperture: f64,
+    /// How far along the axis the plane is that is seen sharply.
+    pub(crate) focus: f64,
     /// From the eye to the target.
     pub(crate) distance: f64,
     /// Of the plane through the target, or for parallel rays through the origin.
@@ -86,6 +90,8 @@ impl View {
             axis,
             right: right * cosine - up * sine,
             up: up * cosine + right * sine,
+            aperture: camera.aperture.map_or(0.0, Length::get),
+            focus: camera.focus.map_or_else(|| ahead.norm(), Length::get),
             distance: ahead.norm(),
             width: camera.plane_width(),
             is_parallel: matches!(camera.projection, Projection::Orthographic(_)),

@@ -104,7 +104,7 @@ pub struct Attachment {
 }
 
 /// Writes a scene in that language. The names of other files that it needs, if any, begin
-/// with `stem`.
+/// with `stem`, in which `_` stands for what such names should not have.
 ///
 /// What is shown is radiance times 2 to the camera's stops, as it is on a display: a
 /// program that writes linear values from 0 to 1 makes the picture that engine `whitted`
@@ -125,7 +125,7 @@ pub fn export(scene: &Scene, format: Format, stem: &str) -> Exported {
     };
     let (text, files) = match format {
         Format::PovRay => (pov::write(scene, exposure, &mut omissions), Vec::new()),
-        Format::Mitsuba => mitsuba::write(scene, exposure, stem, &mut omissions),
+        Format::Mitsuba => mitsuba::write(scene, exposure, &plain(stem), &mut omissions),
     };
     let omissions = omissions.finish();
     let text = match format {
@@ -134,3 +134,12 @@ pub fn export(scene: &Scene, format: Format, stem: &str) -> Exported {
     };
     Exported { format, text, files, omissions }
 }
+
+/// A name that means the same in a file system, in XML and to Mitsuba.
+fn plain(stem: &str) -> String {
+    let plain = |c: char| if c.is_alphanumeric() || "-. ".contains(c) { c } else { '_' };
+    if stem.is_empty() { "scene".to_owned() } else { stem.chars().map(plain).collect() }
+}
+
+#[cfg(test)]
+mod tests;

@@ -35,10 +35,17 @@ pub(crate) fn angled_point(p: &Point) -> String {
     angled(&p.coords)
 }
 
-/// What a person said, where it must not end a comment.
+/// What a person said, as it may stand in a comment: on one line, and without two dashes.
 pub(crate) fn for_comment(text: &str) -> String {
-    let printable = |c: char| if c.is_control() { ' ' } else { c };
-    text.chars().map(printable).collect::<String>().replace("*/", "* /").replace("--", "- -")
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        let c = if c.is_control() { ' ' } else { c };
+        if c == '-' && out.ends_with('-') {
+            out.push(' ');
+        }
+        out.push(c);
+    }
+    out
 }
 
 #[cfg(test)]
@@ -59,6 +66,6 @@ mod tests {
             assert_eq!(text.parse(), Ok(number));
         }
         assert_eq!(angled(&Vector::new(1.0, -0.5, 1e20)), "<1, -0.5, 1e20>");
-        assert_eq!(for_comment("a */ b -- c\n"), "a * / b - - c ");
+        assert_eq!(for_comment("a --- b\n-->"), "a - - - b - ->");
     }
 }

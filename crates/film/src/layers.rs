@@ -35,7 +35,8 @@ impl LayerPixel {
     };
 }
 
-/// A part of a [`LayerPixel`] that a picture file may hold, or not.
+/// A part of a [`LayerPixel`], or of a [`PixelQuality`](crate::PixelQuality), that a picture file
+/// may hold, or not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LayerKind {
     /// Both depths.
@@ -48,12 +49,29 @@ pub enum LayerKind {
     Shape,
     /// The number of the instance.
     Instance,
+    /// The error that is expected of the pixel, and what it hardly exceeds.
+    Error,
+    /// How many samples the pixel has.
+    Samples,
 }
 
 impl LayerKind {
     /// All kinds.
-    pub const ALL: &[Self] =
-        &[Self::Depth, Self::Normal, Self::Albedo, Self::Shape, Self::Instance];
+    pub const ALL: &[Self] = &[
+        Self::Depth,
+        Self::Normal,
+        Self::Albedo,
+        Self::Shape,
+        Self::Instance,
+        Self::Error,
+        Self::Samples,
+    ];
+
+    /// Whether it is about what the pixel's ray meets, and not about its quality.
+    #[must_use]
+    pub const fn is_of_first_hit(self) -> bool {
+        !matches!(self, Self::Error | Self::Samples)
+    }
 
     /// Its name, in small letters.
     #[must_use]
@@ -64,6 +82,8 @@ impl LayerKind {
             Self::Albedo => "albedo",
             Self::Shape => "shape",
             Self::Instance => "instance",
+            Self::Error => "error",
+            Self::Samples => "samples",
         }
     }
 
@@ -197,7 +217,7 @@ mod tests {
             assert_eq!(LayerKind::from_name(&kind.name().to_uppercase()), Some(*kind));
         }
         let names: Vec<_> = LayerKind::ALL.iter().map(|kind| kind.name()).collect();
-        assert_eq!(names, ["depth", "normal", "albedo", "shape", "instance"]);
+        assert_eq!(names, ["depth", "normal", "albedo", "shape", "instance", "error", "samples"]);
         assert_eq!(LayerKind::from_name("all"), None);
         assert_eq!(LayerKind::from_name(""), None);
     }

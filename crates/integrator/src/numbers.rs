@@ -22,6 +22,12 @@ impl Stream {
         Self { set: mixed(mixed(mixed(seed) ^ pixel) ^ u64::from(set)), index }
     }
 
+    /// Those of another sample of the same set.
+    #[must_use]
+    pub const fn at(self, index: u32) -> Self {
+        Self { index, ..self }
+    }
+
     /// Two numbers of at least 0 and below 1 for that use; those for 0 are the place in
     /// the pixel.
     #[must_use]

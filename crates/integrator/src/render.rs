@@ -1,8 +1,7 @@
 use crate::sampling::{Job as SamplingJob, sample};
-use crate::{Accuracy, Engine, RayCounts, Rgb, Sampling, Tracer};
+use crate::{Accuracy, Engine, Forecast, RayCounts, Rgb, Sampling, Tracer};
 use lancer_film::{
     Display, Film, FilmError, LayerPixel, Layers, LightMeter, Quality, Size, Strip, Window,
-    exposure_factor,
 };
 use lancer_kernel::KernelSettings;
 use lancer_scene::{Exposure, Scene};
@@ -39,6 +38,9 @@ pub struct RenderSettings<'a> {
     /// Called now and then, from any thread, as work goes on: with pixels, or with samples
     /// where pixels have many; then how many there will be is a guess that becomes better.
     pub progress: Option<&'a Progress<'a>>,
+    /// Is told how long it will take, as far as that can be known, once it can be, where an error
+    /// was asked for.
+    pub forecast: Option<&'a (dyn Fn(Forecast) + Sync)>,
     /// Once this is true the work stops and [`RenderError::Interrupted`] is
     /// returned; where pixels have several samples, instead the picture as it is then.
     pub cancel: Option<&'a AtomicBool>,
@@ -160,7 +162,9 @@ fn draw(
     // The exposure is fixed before: by one sample in each pixel of the frame, the same
     // whatever the seed is.
     let (frame, window) = (film.frame(), film.window());
-    let mut rendered = if showing.looks_at_frame() || layers.is_some() {
+    // A single sample is just that.
+    let is_single = sampling.samples == Some(1) && window == frame.window();
+    let mut rendered = if (showing.looks_at_frame() && !is_single) || layers.is_some() {
         let settings = RenderSettings { for_display: true, ..*settings };
         fill((engine, &*tracer), showing, &settings, film, layers)?
     } else {
@@ -175,12 +179,14 @@ fn draw(
         sampler,
         window,
         sampling,
-        exposure: rendered.film.stops().map_or(1.0, exposure_factor),
+        stops: rendered.film.stops(),
         lanes: settings.kernel.lanes,
         begun,
         cancel: settings.cancel,
         progress: settings.progress,
+        forecast: settings.forecast,
     });
+    rendered.film.set_stops(sampled.stops);
     let mut quality = Quality::new(frame, window)?;
     for (tile, values, known) in sampled.tiles() {
         rendered.film.put(tile, &values);

@@ -36,6 +36,7 @@ mod drawing;
 mod pages;
 mod picture;
 mod reference;
+mod trials;
 
 pub use compared::{Comparison, Place, Point, Series, error, time};
 pub use csv::csv;
@@ -43,3 +44,4 @@ pub use drawing::{Drawing, Raster};
 pub use pages::{Caption, draw, html, scatter};
 pub use picture::{Exposed, Picture};
 pub use reference::{Reference, ReferenceSettings, reference};
+pub use trials::{Ladder, Subject, Trial};

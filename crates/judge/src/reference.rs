@@ -30,6 +30,11 @@ pub struct ReferenceSettings<'a> {
     pub cancel: Option<&'a AtomicBool>,
 }
 
+impl ReferenceSettings<'_> {
+    /// How many samples each pixel has at first.
+    pub const FEWEST_SAMPLES: u32 = 2 * FEWEST * FEWEST;
+}
+
 /// What a picture is held against.
 #[derive(Debug, Clone)]
 pub struct Reference {

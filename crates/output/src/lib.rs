@@ -32,7 +32,12 @@
 //! film.put(frame.window(), &[[0.5, 2.0, 0.0], [0.1, 0.1, 0.4]]);
 //! let hit = LayerPixel { axis_depth: 3.0, ray_depth: 3.5, shape: 1, ..LayerPixel::MISS };
 //! layers.put(frame.window(), &[hit, LayerPixel::MISS]);
-//! let exr = encode_exr_with_layers(&film, &layers, &[LayerKind::Depth, LayerKind::Shape])?;
+//! let exr = encode_exr_with_layers(
+//!     &film,
+//!     Some(&layers),
+//!     None,
+//!     &[LayerKind::Depth, LayerKind::Shape],
+//! )?;
 //! assert_eq!(decode(&exr)?.levels(0)[1], 2.0 * 255.0);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

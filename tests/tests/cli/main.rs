@@ -1,5 +1,7 @@
 //! The program itself, run as a user runs it.
 
+mod export;
+mod sampling;
 #[cfg(unix)]
 mod unix;
 
@@ -95,6 +97,23 @@ impl Run {
         self
     }
 
+    /// It rendered what was asked, and said nothing but its last line.
+    #[track_caller]
+    fn told(self) -> Self {
+        assert_eq!((self.code(), self.out()), (Some(0), String::new()), "{}", self.err());
+        self.last_line();
+        self
+    }
+
+    /// The only line on standard error, about a picture that was rendered.
+    #[track_caller]
+    fn last_line(&self) -> String {
+        let err = self.err();
+        assert_eq!(err.lines().count(), 1, "{err}");
+        assert!(err.contains(" pixels by ") && err.ends_with(" million rays a second\n"), "{err}");
+        err
+    }
+
     /// It did not, said so, and printed nothing else.
     #[track_caller]
     fn fails(self, code: i32, with: &str) -> Self {
@@ -110,7 +129,7 @@ fn bytes(path: &Path) -> Vec<u8> {
 }
 
 #[test]
-fn a_picture_in_every_format_is_silent_in_a_pipe() {
+fn a_picture_in_every_format_takes_one_line_to_tell() {
     let folder = Folder::new();
     for (name, magic) in [
         ("a.ppm", b"P6\n40 30\n255\n".as_slice()),
@@ -123,40 +142,46 @@ fn a_picture_in_every_format_is_silent_in_a_pipe() {
         ("a.webp", b"RIFF"),
         ("a.tga", b""),
     ] {
-        folder.run(&["render", "scene.xml", "-o", name]).silent();
+        folder.run(&["render", "scene.xml", "-o", name]).told();
         assert!(bytes(&folder.path(name)).starts_with(magic), "{name}");
     }
-    folder.run(&["render", "scene.xml", "-o", "b", "--format", "JPG"]).silent();
+    folder.run(&["render", "scene.xml", "-o", "b", "--format", "JPG"]).told();
     assert!(bytes(&folder.path("b")).starts_with(b"\xff\xd8\xff"));
-    folder.run(&["render", "scene.xml", "-o", "b", "--format", "png", "--bits", "16"]).silent();
+    folder.run(&["render", "scene.xml", "-o", "b", "--format", "png", "--bits", "16"]).told();
     assert_eq!(bytes(&folder.path("b"))[24], 16, "the bit depth in the PNG header");
 }
 
 #[test]
 fn standard_input_and_output_carry_the_same_picture() {
     let folder = Folder::new();
-    folder.run(&["render", "scene.xml", "-o", "a.ppm"]).silent();
+    folder.run(&["render", "scene.xml", "-o", "a.ppm"]).told();
     let run = folder.run_with(&["render", "-", "-o", "-"], SCENE.as_bytes());
-    assert_eq!((run.code(), run.err()), (Some(0), String::new()));
+    assert_eq!(run.code(), Some(0));
+    run.last_line();
     assert!(run.0.stdout == bytes(&folder.path("a.ppm")));
     let run = folder.run_with(&["render", "-", "-o", "-", "--format", "png"], SCENE.as_bytes());
-    folder.run(&["render", "scene.xml", "-o", "a.png"]).silent();
+    folder.run(&["render", "scene.xml", "-o", "a.png"]).told();
     assert!(run.0.stdout == bytes(&folder.path("a.png")));
 }
 
 #[test]
 fn threads_and_crops_agree_with_the_whole() {
     let folder = Folder::new();
-    folder.run(&["render", "scene.xml", "-o", "a.ppm", "--threads", "1"]).silent();
-    folder.run(&["render", "scene.xml", "-o", "b.ppm", "--threads", "7"]).silent();
+    folder.run(&["render", "scene.xml", "-o", "a.ppm", "--threads", "1"]).told();
+    folder.run(&["render", "scene.xml", "-o", "b.ppm", "--threads", "7"]).told();
     assert!(bytes(&folder.path("a.ppm")) == bytes(&folder.path("b.ppm")));
 
-    folder.run(&["render", "scene.xml", "-o", "c.ppm", "--crop", "10,20,5,4"]).silent();
-    let (whole, crop) = (bytes(&folder.path("a.ppm")), bytes(&folder.path("c.ppm")));
-    let crop = crop.strip_prefix(b"P6\n5 4\n255\n").expect("its header");
-    let whole = whole.strip_prefix(b"P6\n40 30\n255\n").expect("its header");
-    for (row, y) in crop.chunks(15).zip(20..) {
-        assert_eq!(row, &whole[(y * 40 + 10) * 3..][..15]);
+    for samples in ["1", "5"] {
+        let whole = ["render", "scene.xml", "-o", "a.ppm", "--samples", samples];
+        folder.run(&whole).told();
+        let crop = ["-o", "c.ppm", "--crop", "10,20,5,4", "--samples", samples];
+        folder.run(&[&["render", "scene.xml"][..], &crop].concat()).told();
+        let (whole, crop) = (bytes(&folder.path("a.ppm")), bytes(&folder.path("c.ppm")));
+        let crop = crop.strip_prefix(b"P6\n5 4\n255\n").expect("its header");
+        let whole = whole.strip_prefix(b"P6\n40 30\n255\n").expect("its header");
+        for (row, y) in crop.chunks(15).zip(20..) {
+            assert_eq!(row, &whole[(y * 40 + 10) * 3..][..15]);
+        }
     }
 }
 
@@ -171,7 +196,7 @@ fn any_lanes_and_threads_make_the_same_file() {
             let arguments = ["render", "scene.xml", "-o", "a.ppm", "--stats", "s.json"];
             // Enough components for several threads to make codes of.
             let size = ["--size", "230x110", "--threads", threads, "--engine", engine];
-            folder.run_in(&environment, &[&arguments[..], &size].concat(), b"").silent();
+            folder.run_in(&environment, &[&arguments[..], &size].concat(), b"").told();
             let stats = folder.stats();
             assert_eq!(stats["lanes"], lanes.name());
             assert_eq!(stats["threads"].to_string(), **threads);
@@ -179,7 +204,7 @@ fn any_lanes_and_threads_make_the_same_file() {
         }
         assert!(files.iter().all(|file| *file == files[0]), "{engine}");
     }
-    folder.run(&["render", "scene.xml", "-o", "a.ppm", "--stats", "s.json"]).silent();
+    folder.run(&["render", "scene.xml", "-o", "a.ppm", "--stats", "s.json"]).told();
     assert_eq!(folder.stats()["lanes"], Width::best().name(), "the widest by default");
 }
 
@@ -203,18 +228,18 @@ fn lanes_that_are_not_there_are_wrong_usage() {
 #[test]
 fn sizes_are_as_asked_for() {
     let folder = Folder::new();
-    folder.run(&["render", "scene.xml", "-o", "a.ppm", "--size", "13x7"]).silent();
+    folder.run(&["render", "scene.xml", "-o", "a.ppm", "--size", "13x7"]).told();
     assert!(bytes(&folder.path("a.ppm")).starts_with(b"P6\n13 7\n"));
     // The file's own size does not matter then, only the one asked for.
     fs::write(folder.path("huge.xml"), SCENE.replace("\"40\"", "\"400000000\"")).expect("written");
     folder
         .run(&["render", "huge.xml", "-o", "a.ppm"])
         .fails(1, "the picture has 12000000000 pixels");
-    folder.run(&["render", "huge.xml", "-o", "a.ppm", "--size", "13x7"]).silent();
+    folder.run(&["render", "huge.xml", "-o", "a.ppm", "--size", "13x7"]).told();
     folder
         .run(&["render", "scene.xml", "-o", "a.ppm", "--size", "20x20", "--max-pixels", "399"])
         .fails(2, "--max-pixels");
-    folder.run(&["render", "scene.xml", "-o", "a.ppm", "--max-pixels", "1200"]).silent();
+    folder.run(&["render", "scene.xml", "-o", "a.ppm", "--max-pixels", "1200"]).told();
     folder
         .run(&["render", "scene.xml", "-o", "a.ppm", "--max-pixels", "1199"])
         .fails(1, "1200 pixels");
@@ -225,7 +250,7 @@ fn statistics_add_up() {
     let folder = Folder::new();
     folder
         .run(&["render", "scene.xml", "-o", "a.png", "--stats", "s.json", "--threads", "2"])
-        .silent();
+        .told();
     let stats = folder.stats();
     assert_eq!(stats["engine"], "whitted");
     assert!(stats["exposure"].as_f64().is_some_and(|stops| (stops * 64.0).fract() == 0.0));
@@ -234,7 +259,9 @@ fn statistics_add_up() {
     assert_eq!(stats["threads"], 2);
     assert_eq!(stats["version"], env!("CARGO_PKG_VERSION"));
     let rays = |kind: &str| stats["rays"][kind].as_u64().expect("a count");
-    assert_eq!(rays("primary"), 1200);
+    // One sample in each pixel finds the exposure.
+    let samples = stats["sampling"]["samples"].as_u64().expect("a count");
+    assert_eq!(rays("primary"), samples + 1200);
     assert!(rays("reflected") > 0 && rays("shadow") > 0);
     let parts = ["primary", "reflected", "transmitted", "shadow"].map(rays);
     assert_eq!(rays("total"), parts.iter().sum::<u64>());
@@ -265,6 +292,18 @@ fn wrong_usage_is_code_2_and_writes_nothing() {
         (&["render", "scene.xml", "--preview"], "needs a terminal"),
         (&["render", "scene.xml", "-o", "a.png", "--exposure", "bright"], "number of stops"),
         (&["render", "scene.xml", "-o", "a.png", "--cutoff", "-1"], "from 0 to 1"),
+        (&["render", "scene.xml", "-o", "a.png", "--error", "0"], "above 0, up to 1"),
+        (&["render", "scene.xml", "-o", "a.png", "--error", "-0.1"], "above 0, up to 1"),
+        (&["render", "scene.xml", "-o", "a.png", "--time", "0ms"], "500ms"),
+        (&["render", "scene.xml", "-o", "a.png", "--time", "-1"], "500ms"),
+        (&["render", "scene.xml", "-o", "a.png", "--samples", "0"], "from 1 to 1048576"),
+        (&["render", "scene.xml", "-o", "a.png", "--seed", "x"], "whole number from 0"),
+        (&["render", "scene.xml", "-o", "a.png", "--strategy", "edge"], "'edges'"),
+        (&["render", "scene.xml", "-o", "a.png", "--stop-at", "3"], "such as 3:120"),
+        (
+            &["render", "scene.xml", "-o", "a.png", "--stop-at", "3:1@0.1", "--error", "0.2"],
+            "leave --error out",
+        ),
         (&["render", "scene.xml", "-o", "a.png", "--layers", "depth"], "write an EXR"),
         (&["render", "scene.xml", "-o", "a.exr", "--layers", "colour"], "is none of depth"),
         (
@@ -278,6 +317,14 @@ fn wrong_usage_is_code_2_and_writes_nothing() {
         (
             &["render", "scene.xml", "-o", "a.exr", "--engine", "classic", "--layers", "all"],
             "means nothing",
+        ),
+        (
+            &["render", "scene.xml", "-o", "a.png", "--engine", "classic", "--samples", "1"],
+            "--samples means nothing to the engine classic, only to whitted",
+        ),
+        (
+            &["render", "scene.xml", "-o", "a.png", "--engine", "direct", "--time", "1"],
+            "--time means nothing",
         ),
         (&["compare", "a.png"], "Usage"),
         (&["compare", "a.png", "b.png", "--max-diff", "-1"], "max-diff"),
@@ -348,7 +395,7 @@ fn warnings_do_not_stop_a_render_and_quiet_hides_them() {
     assert_eq!(run.code(), Some(0));
     assert!(run.err().starts_with("warning: down.xml: the camera looks straight"), "{}", run.err());
     folder.run(&[&down[..], &["--quiet"]].concat()).silent();
-    folder.run(&["render", "down.xml", "-o", "a.png"]).silent();
+    folder.run(&["render", "down.xml", "-o", "a.png"]).told();
     let empty = scenes().join("invalid/empty_shapes.xml");
     let empty = empty.to_str().expect("it is UTF-8");
     assert!(folder.run(&["render", empty, "-o", "a.png"]).err().contains("<shapes> is empty"));
@@ -358,8 +405,8 @@ fn warnings_do_not_stop_a_render_and_quiet_hides_them() {
 #[test]
 fn compare_tells_by_its_exit_code() {
     let folder = Folder::new();
-    folder.run(&["render", "scene.xml", "-o", "a.png"]).silent();
-    folder.run(&["render", "scene.xml", "-o", "a.ppm"]).silent();
+    folder.run(&["render", "scene.xml", "-o", "a.png"]).told();
+    folder.run(&["render", "scene.xml", "-o", "a.ppm"]).told();
     let run = folder.run(&["compare", "a.png", "a.ppm"]);
     assert_eq!((run.code(), run.err()), (Some(0), String::new()));
     assert_eq!(run.out(), "identical: all 1200 pixels are the same\n");
@@ -389,27 +436,36 @@ fn compare_tells_by_its_exit_code() {
 #[test]
 fn the_exposure_that_was_found_can_be_given_back() {
     let folder = Folder::new();
-    folder.run(&["render", "scene.xml", "-o", "a.png", "--stats", "s.json"]).silent();
+    folder.run(&["render", "scene.xml", "-o", "a.png", "--stats", "s.json"]).told();
     let stats = folder.stats();
     let stops = stats["exposure"].to_string();
-    folder.run(&["render", "scene.xml", "-o", "b.png", "--exposure", &stops]).silent();
+    folder.run(&["render", "scene.xml", "-o", "b.png", "--exposure", &stops]).told();
     assert!(bytes(&folder.path("a.png")) == bytes(&folder.path("b.png")));
     // A crop is as bright as the whole, and knows the same number.
     let crop = ["render", "scene.xml", "-o", "c.png", "--crop", "3,4,5,6", "--stats", "s.json"];
-    folder.run(&crop).silent();
+    folder.run(&crop).told();
     let stats = folder.stats();
     assert_eq!(stats["exposure"].to_string(), stops);
-    folder.run(&["render", "scene.xml", "-o", "d.png", "--exposure", "-30"]).silent();
+    folder.run(&["render", "scene.xml", "-o", "d.png", "--exposure", "-30"]).told();
     assert!(bytes(&folder.path("a.png")) != bytes(&folder.path("d.png")));
 }
 
 #[test]
 fn layers_are_channels_of_the_picture() {
     let folder = Folder::new();
-    folder.run(&["render", "scene.xml", "-o", "a.exr", "--layers", "all"]).silent();
-    folder.run(&["render", "scene.xml", "-o", "b.exr"]).silent();
+    folder.run(&["render", "scene.xml", "-o", "a.exr", "--layers", "all"]).told();
+    folder.run(&["render", "scene.xml", "-o", "b.exr"]).told();
     let (layered, plain) = (bytes(&folder.path("a.exr")), bytes(&folder.path("b.exr")));
-    for channel in ["depth.axis", "depth.ray", "normal.X", "albedo.B", "shape.id", "instance.id"] {
+    for channel in [
+        "depth.axis",
+        "depth.ray",
+        "normal.X",
+        "albedo.B",
+        "shape.id",
+        "instance.id",
+        "error.rms",
+        "samples.count",
+    ] {
         let name: Vec<u8> = channel.bytes().chain([0]).collect();
         assert!(layered.windows(name.len()).any(|part| part == name), "{channel}");
         assert!(!plain.windows(name.len()).any(|part| part == name), "{channel}");
@@ -425,7 +481,7 @@ fn scenes_find_their_meshes_and_old_engines_refuse_new_scenes() {
     fs::write(folder.path("inner/mesh.obj"), triangle).expect("written");
     let scene = SCENE.replace("<shapes>", "<shapes><mesh color=\"red\" file=\"mesh.obj\"/>");
     fs::write(folder.path("inner/scene.xml"), &scene).expect("written");
-    folder.run(&["render", "inner/scene.xml", "-o", "a.png"]).silent();
+    folder.run(&["render", "inner/scene.xml", "-o", "a.png"]).told();
     fs::write(folder.path("lost.xml"), &scene).expect("written");
     folder.run(&["render", "lost.xml", "-o", "a.png"]).fails(1, "mesh.obj");
     fs::write(folder.path("inner/mesh.obj"), triangle.replace("f 1 2 3", "f 1 2 x"))

@@ -38,8 +38,8 @@ const DEFERRED: &[(&str, &str, &str)] = &[
     ),
     (
         "A3",
-        "averaging before and after what is too bright is clipped, and lamps with a size",
-        "a pixel is its centre's ray until there is sampling with a known error",
+        "lamps with a size (averaging before what is too bright is clipped is tested)",
+        "lights have no size yet",
     ),
     (
         "O3",
@@ -107,7 +107,7 @@ fn each_failure_has_a_test_or_a_reason() {
         .filter(|number| !tested.contains(*number) && !deferred.contains(*number))
         .collect();
     assert!(forgotten.is_empty(), "neither tested nor put off: {forgotten:?}");
-    // Of one a part is tested.
+    // Of these a part is tested.
     let both: Vec<_> = deferred.intersection(&tested).map(String::as_str).collect();
-    assert_eq!(both, ["O3"], "tested although they are put off");
+    assert_eq!(both, ["A3", "O3"], "tested although they are put off");
 }

@@ -19,6 +19,7 @@ mod torus;
 mod triangle;
 
 // Whole pictures.
+mod averages;
 mod camera;
 mod media;
 mod mirrors;

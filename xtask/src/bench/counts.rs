@@ -109,6 +109,7 @@ fn count(program: &Path, [scene, engine, size]: [&str; 3], lanes: &str) -> Resul
         .arg("-o")
         .arg(folder.path().join("out.ppm"))
         .args(["--engine", engine, "--size", size, "--threads", "1", "--quiet"])
+        .args(process::centres(engine))
         .env("LANCER_LANES", lanes)
         .output()
         .map_err(fail)?;

@@ -34,6 +34,12 @@ pub(super) fn program() -> Result<PathBuf, Failure> {
     program.ok_or_else(|| fail("cargo does not say where the program is"))
 }
 
+/// The options with which pictures are those of the pixels' centres, so that it is known how
+/// many rays they take.
+pub(super) fn centres(engine: &str) -> &'static [&'static str] {
+    if engine == "whitted" { &["--samples", "1"] } else { &[] }
+}
+
 /// What the stages of the program take.
 #[derive(Default)]
 struct Stages {
@@ -88,7 +94,9 @@ fn one(
         .arg(paths::scenes().join("readme.xml"))
         .arg("-o")
         .arg(folder.join("out.ppm"))
-        .args(["--engine", engine, "--quiet", "--stats"])
+        .args(["--engine", engine, "--quiet"])
+        .args(centres(engine))
+        .arg("--stats")
         .arg(&stats)
         .env("LANCER_LANES", lanes);
     let (seconds, status) = seconds(|| command.status());

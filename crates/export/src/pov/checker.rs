@@ -4,7 +4,7 @@
 use super::{matrix, rgb};
 use crate::frame::{Frame, sides, slope};
 use crate::text::Number;
-use lancer_scene::{Checker, Geometry, Mesh, Pattern, Surface};
+use lancer_scene::{Checker, Direction, Geometry, Mesh, Pattern, Surface};
 use std::fmt::Write;
 
 /// What the patterns below call. `LancerCell` is 1 where one of two counts is odd and the
@@ -89,7 +89,7 @@ pub(super) fn cells(geometry: &Geometry, surface: &Surface) -> Vec<Cells> {
             Cells::squares(length, &Frame::around(disc.normal.get(), disc.centre.get()))
         }
         Geometry::Rectangle(rectangle) => {
-            let sides = rectangle.sides().map(|side| side.get());
+            let sides = rectangle.sides().map(Direction::get);
             Cells::squares(length, &Frame::of_sides(rectangle.corner(), sides))
         }
         Geometry::Triangle(triangle) => {
@@ -139,7 +139,7 @@ pub(super) fn cells(geometry: &Geometry, surface: &Surface) -> Vec<Cells> {
 
 /// Which of the three cells of a mesh a triangle has: by the axis that its normal has
 /// most of.
-pub(super) fn axis(mesh: &Mesh, triangle: usize) -> usize {
+pub(crate) fn axis(mesh: &Mesh, triangle: usize) -> usize {
     let [a, b, c] = mesh.corners(triangle);
     let scale = (b - a).amax().max((c - a).amax());
     ((b - a) / scale).cross(&((c - a) / scale)).iamax()

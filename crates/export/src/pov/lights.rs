@@ -8,6 +8,9 @@ use lancer_scene::{Beam, Falloff, Light};
 /// (NEAR / d)^2.
 const NEAR: f64 = 1e-5;
 
+/// A ball is a disc of so many points a side.
+const POINTS: u32 = 17;
+
 /// How far away a sun's plane is.
 const FAR: f64 = 1e6;
 
@@ -18,10 +21,24 @@ pub(super) fn light(
     omissions: &mut Omissions,
 ) -> String {
     let brightness = light.brightness().get() * exposure;
+    let ball = light.radius().map_or_else(String::new, |radius| {
+        omissions.add(
+            place,
+            &format!(
+                "shadows of a ball of light are those of {POINTS} x {POINTS} points of a disc that \
+                 faces what is lit"
+            ),
+            "",
+        );
+        let wide = Number(2.0 * radius.get());
+        format!(
+            " area_light <{wide}, 0, 0>, <0, {wide}, 0>, {POINTS}, {POINTS} adaptive 1 circular orient"
+        )
+    });
     match light {
         Light::Lamp { point, falloff, .. } => {
             let (colour, fade) = faded(brightness, *falloff);
-            format!("light_source {{ {}, {colour}{fade} }}\n", angled_point(&point.get()))
+            format!("light_source {{ {}, {colour}{fade}{ball} }}\n", angled_point(&point.get()))
         }
         Light::Spot { point, axis, beam, falloff, .. } => {
             let (colour, fade) = faded(brightness, *falloff);
@@ -33,7 +50,7 @@ pub(super) fn light(
             } else {
                 format!("{cone} point_at {}", angled_point(&(point + ahead)))
             };
-            format!("light_source {{ {}, {colour}{aim}{fade} }}\n", angled_point(&point))
+            format!("light_source {{ {}, {colour}{aim}{fade}{ball} }}\n", angled_point(&point))
         }
         Light::Sun { direction, .. } => {
             let travels = unit(direction.get()).unwrap_or_else(lancer_math::Vector::z);

@@ -20,6 +20,9 @@ use std::fmt::Write;
 use std::sync::Arc;
 use surface::Look;
 
+pub(crate) use checker::axis;
+pub(crate) use shape::FACES;
+
 /// Rays that count for less are not followed: the cutoff that engine `whitted` usually has.
 const BAILOUT: f64 = 1e-4;
 
@@ -29,6 +32,9 @@ const DEEPEST: u32 = 256;
 /// Coordinates and sizes beyond which its own tolerances, which are absolute, show.
 const SMALLEST: f64 = 0.1;
 const LARGEST: f64 = 1e6;
+
+/// How many rays there are for each pixel where the camera has a lens.
+const THROUGH_LENS: u32 = 100;
 
 /// More shapes than this in memory are worth a word.
 const MANY: u64 = 1_000_000;
@@ -100,8 +106,23 @@ fn camera(camera: &Camera, omissions: &mut Omissions) -> String {
     }
     let kind = if view.is_parallel { "orthographic" } else { "perspective" };
     let ahead = if view.is_parallel { view.axis } else { view.axis * view.distance };
+    let lens = if view.aperture == 0.0 {
+        String::new()
+    } else {
+        omissions.add(
+            "camera",
+            &format!("a lens is {THROUGH_LENS} rays for each pixel, whatever is asked for"),
+            "",
+        );
+        // Twice the diameter, as rendering shows.
+        format!(
+            " focal_point {} aperture {} blur_samples {THROUGH_LENS} variance 0",
+            angled_point(&(view.origin + view.axis * view.focus)),
+            Number(2.0 * view.aperture)
+        )
+    };
     format!(
-        "camera {{ {kind} location {} direction {} right {} up {} * image_height / image_width }}\n",
+        "camera {{ {kind} location {} direction {} right {} up {} * image_height / image_width{lens} }}\n",
         angled_point(&view.origin),
         angled(&ahead),
         angled(&(view.right * view.width)),

@@ -4,13 +4,13 @@ use super::surface::Look;
 use crate::frame::Frame;
 use crate::text::{Number, angled, angled_point};
 use lancer_math::{Point, Vector, unit};
-use lancer_scene::{Cone, Geometry, Mesh, Shape, Torus};
+use lancer_scene::{Cone, Direction, Geometry, Mesh, Shape, Torus};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// The corners of each face of a tetrahedron, counterclockwise from outside; a face's
 /// checker begins at the first.
-pub(super) const FACES: [[usize; 3]; 4] = [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]];
+pub(crate) const FACES: [[usize; 3]; 4] = [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]];
 
 /// A shape with its textures, up to what stands before its closing brace. `None` for one of the
 /// user's own.
@@ -36,7 +36,7 @@ pub(super) fn object(shape: &Shape, look: &Look<'_>) -> Option<String> {
             format!("disc {{ {centre}, {}, {}", angled(&normal), Number(disc.radius.get()))
         }
         Geometry::Rectangle(rectangle) => {
-            let [a, b] = rectangle.sides().map(|side| side.get());
+            let [a, b] = rectangle.sides().map(Direction::get);
             let normal = Frame::of_sides(Point::origin(), [a, b]).axes[2];
             let place = Frame { axes: [a, b, normal], origin: rectangle.corner() };
             format!(

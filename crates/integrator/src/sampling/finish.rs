@@ -2,7 +2,7 @@
 
 use super::Why;
 use super::control::StopAt;
-use super::table::Table;
+use super::table::Expected;
 use super::tile::Tile;
 use crate::Rgb;
 use lancer_film::PixelQuality;
@@ -51,19 +51,20 @@ impl Tile {
         values
     }
 
-    /// What is known of them; `first` is how many samples those have that are not refined.
-    pub(super) fn quality(&self, table: &Table, exposure: f64, first: u32) -> Vec<PixelQuality> {
+    /// What is known of them.
+    pub(super) fn quality(&self, expected: &Expected, largest: &Expected) -> Vec<PixelQuality> {
+        let first = u32::from(!self.place.is_empty());
         let smooth = self.error.iter().map(|error| {
             let error = error.sqrt();
             PixelQuality { error, interval: NORMAL * error, samples: first }
         });
         let mut quality: Vec<PixelQuality> = smooth.collect();
-        for pixel in &self.refined {
-            if pixel.count() > 0 {
+        for (pixel, standing) in self.refined.iter().zip(&self.standing) {
+            if pixel.count() > 1 {
                 quality[usize::from(pixel.index)] = PixelQuality {
-                    error: table.error(pixel, exposure).sqrt() as f32,
-                    interval: table.interval(pixel, exposure) as f32,
-                    samples: pixel.count(),
+                    error: expected.error(standing.places).sqrt() as f32,
+                    interval: largest.error(standing.places).sqrt() as f32,
+                    samples: standing.count,
                 };
             }
         }

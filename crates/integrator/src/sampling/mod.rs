@@ -21,12 +21,13 @@
 //!    more than others that look so.
 //! 4. Each round refines the pixels that take most from the error for a sample, as many as
 //!    the error asked for needs (`plan.rs`), and pixels beside those in which another
-//!    signature was found, so that what is thinner than a pixel is followed along.
+//!    signature was found, so that what is thinner than a pixel is followed along (`contours.rs`).
 //!
 //! Whether and how often a pixel is refined does not depend on the samples of which its value is
 //! made, or hardly: a pixel that alone among its neighbours saw something starts
 //! afresh (Kirk and Arvo, *Unbiased sampling techniques for image synthesis*, 1991).
 
+mod contours;
 mod control;
 mod finish;
 mod first;

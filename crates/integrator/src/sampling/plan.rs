@@ -15,6 +15,13 @@ pub(super) struct Class {
     pub(super) error: f64,
 }
 
+impl Class {
+    pub(super) fn take(&mut self, error: f64) {
+        self.pixels += 1;
+        self.error += error;
+    }
+}
+
 /// Pixels by class: of smooth ones, and of refined ones by the number of samples.
 #[derive(Clone)]
 pub(super) struct Tally {
@@ -47,15 +54,18 @@ impl Tally {
     }
 
     pub(super) fn take(&mut self, samples: u32, error: f64) {
-        let class = &mut self.classes[class(samples, error)];
-        class.pixels += 1;
-        class.error += error;
+        self.classes[class(samples, error)].take(error);
+    }
+
+    /// Takes in several pixels of a class.
+    pub(super) fn add_to(&mut self, class: usize, more: &Class) {
+        self.classes[class].pixels += more.pixels;
+        self.classes[class].error += more.error;
     }
 
     pub(super) fn add(&mut self, other: &Self) {
-        for (class, other) in self.classes.iter_mut().zip(&other.classes) {
-            class.pixels += other.pixels;
-            class.error += other.error;
+        for (class, other) in other.classes.iter().enumerate() {
+            self.add_to(class, other);
         }
     }
 
@@ -176,6 +186,11 @@ pub(super) fn plan(tally: &Tally, target: f64, most_samples: u32) -> Option<Plan
 }
 
 impl Plan {
+    /// Whether smooth pixels are among those to be refined.
+    pub(super) fn promotes(&self) -> bool {
+        self.steps[..SIZES].iter().any(|step| *step != Step::default())
+    }
+
     /// The same, but where only a part of a class was to be refined, all of it.
     pub(super) fn of_all(mut self) -> Self {
         for step in &mut self.steps {
@@ -188,9 +203,10 @@ impl Plan {
 
     /// How many samples a pixel of that class should have; `chance`, a number from 0 to 1 of
     /// its own, tells whether it is among those of which only a part is needed.
-    pub(super) fn samples(&self, class: usize, samples: u32, chance: f64) -> u32 {
+    pub(super) fn samples(&self, class: usize, samples: u32, chance: impl Fn() -> f64) -> u32 {
         let Step { doublings, part } = self.steps[class];
-        let doublings = doublings + u32::from(chance < part);
+        let is_among = part > 0.0 && chance() < part;
+        let doublings = doublings + u32::from(is_among);
         match (samples, doublings) {
             (_, 0) => samples,
             (0, _) => SMOOTH_SAMPLES << (doublings - 1),
@@ -212,9 +228,9 @@ mod tests {
         }
         let plan = plan(&tally, 0.8, 1 << 16).expect("there is something to do");
         let [large, small] = [0.01, 0.0001].map(|error| class(4, error));
-        assert_eq!(plan.samples(small, 4, 0.0), 4);
+        assert_eq!(plan.samples(small, 4, || 0.0), 4);
         // 1.01 to 0.8 by what takes 0.58 of 1.0 away: a part of it.
-        assert_eq!((plan.samples(large, 4, 0.0), plan.samples(large, 4, 0.99)), (8, 4));
+        assert_eq!((plan.samples(large, 4, || 0.0), plan.samples(large, 4, || 0.99)), (8, 4));
         assert!(plan.samples > 100 && plan.samples < 200, "{}", plan.samples);
         assert!(super::plan(&tally, 1.1, 1 << 16).is_none());
         assert!(super::plan(&tally, 0.8, 4).is_none());

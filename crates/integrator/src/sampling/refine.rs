@@ -2,7 +2,7 @@
 
 use super::Strategy;
 use super::table::Table;
-use super::tile::{Pixel, Tile};
+use super::tile::{Standing, Tile};
 use crate::numbers::Stream;
 use crate::{MOST_SAMPLES, RayCounts, Sample, Sampler, Seen};
 
@@ -14,24 +14,27 @@ pub(super) struct Spread {
 }
 
 impl Spread {
-    /// The sample with that index, of so many, of a set of a pixel.
-    pub(super) fn sample(&self, pixel: (u32, u32), set: u32, index: u32, of: u32) -> Sample {
-        // The first one of a set of its own is anywhere.
-        let anywhere = || Stream::new(self.seed, pixel, set + 4 * (index + 1), 0);
-        match self.strategy {
-            Strategy::Edges | Strategy::Sobol => {
-                Sample::new(pixel, Stream::new(self.seed, pixel, set, index))
-            }
-            Strategy::Random => Sample::new(pixel, anywhere()),
+    /// The sample with that index, of so many, of the set of a pixel to which the stream belongs.
+    fn sample(&self, pixel: (u32, u32), set: Stream, index: u32, of: u32) -> Sample {
+        let [u, v] = match self.strategy {
+            Strategy::Edges | Strategy::Sobol => return Sample::new(pixel, set.at(index)),
+            Strategy::Random => return Sample::new(pixel, self.anywhere(pixel, set, index)),
             Strategy::Stratified => {
-                let (stream, [columns, rows]) = (anywhere(), grid(of));
-                let [u, v] = stream.pair(0);
+                let [columns, rows] = grid(of);
+                let [u, v] = self.anywhere(pixel, set, index).pair(0);
                 let (column, row) = (f64::from(index % columns), f64::from(index / columns));
-                let (u, v) = ((column + u) / f64::from(columns), (row + v) / f64::from(rows));
-                let place = [f64::from(pixel.0) + u, f64::from(pixel.1) + v];
-                Sample { pixel, place, stream }
+                [(column + u) / f64::from(columns), (row + v) / f64::from(rows)]
             }
-        }
+        };
+        let place = [f64::from(pixel.0) + u, f64::from(pixel.1) + v];
+        Sample { pixel, place, stream: self.anywhere(pixel, set, index) }
+    }
+
+    /// Numbers that have nothing to do with those of other samples: the first ones of a set of
+    /// their own.
+    fn anywhere(&self, pixel: (u32, u32), set: Stream, index: u32) -> Stream {
+        let [u, v] = set.at(index).pair(OWN_SETS);
+        Stream::new(self.seed ^ u.to_bits() ^ v.to_bits().rotate_left(32), pixel, index, 0)
     }
 
     /// Whether a set goes on where it is doubled; else it is drawn afresh.
@@ -40,26 +43,24 @@ impl Spread {
     }
 }
 
+/// The dimension that chooses them, which is used for nothing else.
+const OWN_SETS: u32 = u32::MAX;
+
 /// The columns and rows of a grid of so many cells, as near to a square as can be.
 fn grid(cells: u32) -> [u32; 2] {
     let mut rows = cells.max(1).isqrt();
-    while cells % rows != 0 {
+    while !cells.is_multiple_of(rows) {
         rows -= 1;
     }
     [cells / rows, rows]
 }
 
 /// What a thread has found out in a round.
+#[derive(Default)]
 pub(super) struct Found {
     pub(super) counts: RayCounts,
     pub(super) samples: u64,
     pub(super) table: Table,
-}
-
-impl Found {
-    pub(super) fn new() -> Self {
-        Self { counts: RayCounts::default(), samples: 0, table: Table::new() }
-    }
 }
 
 /// Samples that wait to be seen together, and whose they are.
@@ -85,35 +86,34 @@ impl Batch {
     }
 }
 
-/// Gives each refined pixel of some tiles the number of samples that `wanted` says, in its two
-/// halves.
+/// Gives each refined pixel of some tiles the number of samples that `wanted` says for its place
+/// among them, in its two halves.
 pub(super) fn refine(
     tiles: &mut [Tile],
     (sampler, spread): (&dyn Sampler, &Spread),
     exposure: f64,
-    wanted: impl Fn(&Tile, &Pixel) -> u32,
+    wanted: impl Fn(&Tile, usize) -> u32,
     found: &mut Found,
 ) {
     let mut batch = Batch { samples: Vec::new(), owners: Vec::new() };
     let mut changed = Vec::new();
     for at in 0..tiles.len() {
         for which in 0..tiles[at].refined.len() {
-            let tile = &tiles[at];
-            let pixel = tile.refined[which];
-            let wanted = wanted(tile, &pixel);
-            if wanted <= pixel.count() {
+            let tile = &mut tiles[at];
+            let wanted = wanted(tile, which);
+            if wanted <= tile.standing[which].count {
                 continue;
             }
             changed.push((at, which));
-            let place = tile.pixel(usize::from(pixel.index));
-            let pixel = &mut tiles[at].refined[which];
+            let place = tile.pixel(usize::from(tile.refined[which].index));
+            let pixel = &mut tile.refined[which];
             if !spread.goes_on() {
                 pixel.halves = Default::default();
             }
             let pixel = *pixel;
             for (half, wanted) in [wanted.div_ceil(2), wanted / 2].into_iter().enumerate() {
+                let set = Stream::new(spread.seed, place, u32::from(pixel.set) + half as u32, 0);
                 for index in pixel.halves[half].count..wanted {
-                    let set = u32::from(pixel.set) + half as u32;
                     batch.samples.push(spread.sample(place, set, index, wanted));
                     batch.owners.push((at, which, half));
                     if batch.samples.len() == MOST_SAMPLES {
@@ -127,7 +127,8 @@ pub(super) fn refine(
     for (tile, which) in changed {
         let tile = &mut tiles[tile];
         let pixel = &tile.refined[which];
-        found.table.take(pixel, exposure);
+        let (places, count) = (found.table.take(pixel, exposure), pixel.count());
+        tile.standing[which] = Standing { places, count };
         if pixel.is_mixed {
             tile.is_mixed.put(usize::from(pixel.index));
         }
@@ -151,7 +152,8 @@ mod tests {
         for of in [1, 2, 6, 16] {
             let [columns, rows] = grid(of);
             for index in 0..of {
-                let [x, y] = spread.sample((5, 9), 1, index, of).place;
+                let set = Stream::new(3, (5, 9), 1, 0);
+                let [x, y] = spread.sample((5, 9), set, index, of).place;
                 let cell = [(x - 5.0) * f64::from(columns), (y - 9.0) * f64::from(rows)];
                 assert_eq!(cell.map(|at| at as u32), [index % columns, index / columns]);
             }

@@ -3,28 +3,28 @@
 use super::control::Control;
 use super::finish::{Accuracy, Forecast};
 use super::first::Where;
-use super::plan::{Plan, SMOOTH_SAMPLES, Tally, class, plan};
+use super::plan::{Class, Plan, SMOOTH_SAMPLES, Tally, class, plan};
 use super::refine::{Found, Spread, refine};
-use super::smooth::{Neighbours, analyse};
-use super::table::Table;
+use super::smooth::{Analysis, Neighbours, analyse};
+use super::table::{Expected, Table};
 use super::tile::{Pixel, Tile};
 use super::{Sampling, Strategy, Why};
 use crate::numbers::mixed;
-use crate::{RayCounts, Rgb, Sampler, TILE_SIDE};
-use lancer_film::{PixelQuality, Window};
+use crate::{Progress, RayCounts, Rgb, Sampler, TILE_SIDE};
+use lancer_film::{LightMeter, PixelQuality, Window, exposure_factor};
 use lancer_kernel::lanes::Width;
 use rayon::prelude::*;
 use std::sync::atomic::AtomicBool;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// How many tiles a piece of work has: neighbours, whose samples are seen together.
 const PIECE: usize = 4;
-/// Over how many tiles sums are made, the same for any number of threads.
-const PART: usize = 64;
+/// In how many parts sums are made, the same for any number of threads.
+const PARTS: usize = 8;
 /// More samples no pixel gets.
 const MOST: u32 = 1 << 20;
-/// The error that is come to first; from there to the one asked for in steps of a half, so that
-/// what there is at any time is about the best for its samples.
+/// Where no error is asked for, this is come to first, and from there on always half of it, so
+/// that what there is at any time is about the best for its samples.
 const FIRST_TARGET: f64 = 1.0 / 64.0;
 /// What is predicted must be so much less than what was asked for: a prediction is right in the
 /// mean, and so every other time too low.
@@ -37,13 +37,16 @@ pub(crate) struct Job<'a> {
     pub(crate) sampler: &'a dyn Sampler,
     pub(crate) window: Window,
     pub(crate) sampling: &'a Sampling,
-    /// 2^stops.
-    pub(crate) exposure: f64,
+    /// The exposure in stops. Where it is not given, it is that which a [`LightMeter`] finds
+    /// for the first samples, which are one at the centre of each pixel then, and all.
+    pub(crate) stops: Option<f64>,
     pub(crate) lanes: Width,
     pub(crate) begun: Instant,
     pub(crate) cancel: Option<&'a AtomicBool>,
     /// Is told how many samples there are and how many there may be in the end.
-    pub(crate) progress: Option<&'a crate::Progress<'a>>,
+    pub(crate) progress: Option<&'a Progress<'a>>,
+    /// Is told how long it may take, once.
+    pub(crate) forecast: Option<&'a (dyn Fn(Forecast) + Sync)>,
 }
 
 /// The picture in tiles, row by row.
@@ -51,30 +54,31 @@ pub(crate) struct Sampled {
     picture: Picture,
     pub(crate) accuracy: Accuracy,
     pub(crate) counts: RayCounts,
+    pub(crate) stops: f64,
 }
 
 impl Sampled {
     /// Each tile's window, values, and what is known of them.
     pub(crate) fn tiles(&self) -> Vec<(Window, Vec<Rgb>, Vec<PixelQuality>)> {
-        let Picture { tiles, table, exposure, first, .. } = &self.picture;
-        let of = |tile: &Tile| (tile.window, tile.values(), tile.quality(table, *exposure, *first));
+        let Picture { tiles, table, .. } = &self.picture;
+        let (expected, largest) = (table.expected(), table.largest());
+        let of = |tile: &Tile| (tile.window, tile.values(), tile.quality(&expected, &largest));
         tiles.par_iter().map(of).collect()
     }
 }
 
 /// All that is known so far.
-struct Picture {
-    tiles: Vec<Tile>,
+pub(super) struct Picture {
+    pub(super) tiles: Vec<Tile>,
     /// How many tiles there are in a row.
-    across: usize,
+    pub(super) across: usize,
     table: Table,
+    stops: f64,
     exposure: f64,
-    /// The samples of pixels that are not refined.
-    first: u32,
     samples: u64,
     counts: RayCounts,
     /// The squared error of what may have been missed between samples.
-    missed: f64,
+    pub(super) missed: f64,
 }
 
 /// Samples a window of the frame.
@@ -93,29 +97,30 @@ pub(crate) fn sample(job: &Job<'_>) -> Sampled {
         _ => (picture.evenly(job, &control, samples, asked), None),
     };
     let (at, stopped) = control.state();
-    let unseen = picture.unseen();
+    let unseen = picture.tiles.iter().map(Tile::unseen).sum();
     let accuracy = Accuracy {
-        predicted: picture.predicted(&picture.tally()),
+        predicted: picture.predicted(),
         samples: picture.samples,
         unseen,
         stopped: stopped.unwrap_or(why),
         at,
         forecast,
-        exposure: job.exposure,
+        exposure: picture.exposure,
     };
-    let counts = picture.counts;
-    Sampled { picture, accuracy, counts }
+    let (counts, stops) = (picture.counts, picture.stops);
+    Sampled { picture, accuracy, counts, stops }
 }
 
 impl Picture {
     fn new(job: &Job<'_>) -> Self {
         let tiles = job.window.strips(TILE_SIDE, TILE_SIDE).map(Tile::new).collect();
+        let stops = job.stops.unwrap_or(0.0);
         Self {
             tiles,
             across: job.window.width.div_ceil(TILE_SIDE) as usize,
-            table: Table::new(),
-            exposure: job.exposure,
-            first: 1,
+            table: Table::default(),
+            stops,
+            exposure: exposure_factor(stops),
             samples: 0,
             counts: RayCounts::default(),
             missed: 0.0,
@@ -126,22 +131,9 @@ impl Picture {
         self.tiles.iter().map(|tile| tile.pixels() as f64).sum()
     }
 
-    /// Pixels without a sample.
-    fn unseen(&self) -> u64 {
-        let unseen = |tile: &Tile| {
-            if !tile.place.is_empty() {
-                return 0;
-            }
-            let seen = tile.refined.iter().filter(|pixel| pixel.count() > 0).count();
-            (tile.pixels() - seen) as u64
-        };
-        self.tiles.iter().map(unseen).sum()
-    }
-
     /// Has `work` done to all tiles in one round.
     fn round(&mut self, control: &Control<'_>, work: impl Fn(&mut Found, &mut [Tile]) + Sync) {
-        let pieces = self.tiles.chunks_mut(PIECE);
-        let found = control.round(pieces, work, Found::new);
+        let found = control.round(self.tiles.chunks_mut(PIECE), work, Found::default);
         for found in found {
             self.counts += found.counts;
             self.samples += found.samples;
@@ -158,35 +150,35 @@ impl Picture {
         });
     }
 
-    /// Looks at the first samples, and gives the pixels that are not smooth by tile.
-    fn look(&mut self, job: &Job<'_>) -> Vec<Vec<Pixel>> {
+    /// Looks at the first samples of tiles that were reached.
+    fn look(&self, lanes: Width) -> Vec<Analysis> {
         let (tiles, across) = (&self.tiles, self.across);
-        let found: Vec<_> = (0..tiles.len())
-            .into_par_iter()
-            .map(|index| {
-                (!tiles[index].place.is_empty())
-                    .then(|| analyse(&Neighbours { tiles, across, index }, job.exposure, job.lanes))
-            })
-            .collect();
-        let put = |(tile, found): (&mut Tile, Option<super::smooth::Analysis>)| {
-            found.map_or_else(Vec::new, |found| {
-                tile.colour = found.colour;
-                tile.error = found.error;
-                found.edges
-            })
-        };
-        self.tiles.iter_mut().zip(found).map(put).collect()
+        let mut found = vec![Analysis::EMPTY; tiles.len()];
+        found.par_iter_mut().enumerate().for_each(|(index, found)| {
+            if !tiles[index].place.is_empty() {
+                let around = Neighbours { tiles, across, index };
+                analyse(&around, self.exposure, lanes, found);
+            }
+        });
+        found
     }
 
     /// One sample at the centre of each pixel.
     fn centres(&mut self, job: &Job<'_>, control: &Control<'_>) -> Why {
         self.first_samples(job, control, Where::Centre);
-        // The samples are the values.
-        let colours: Vec<_> = self.tiles.iter().map(|tile| tile.colour.clone()).collect();
-        let edges = self.look(job);
-        drop(edges);
-        for (tile, colour) in self.tiles.iter_mut().zip(colours) {
-            tile.colour = colour;
+        if job.stops.is_none() {
+            let mut meter = LightMeter::new(job.window.pixels());
+            self.tiles.iter().for_each(|tile| meter.see(&tile.colour));
+            self.stops = meter.stops();
+            self.exposure = exposure_factor(self.stops);
+        }
+        // The samples stay the values, and are not put to where they are already.
+        let found = self.look(job.lanes);
+        for (tile, found) in self.tiles.iter_mut().zip(found) {
+            if !tile.place.is_empty() {
+                let pixels = tile.pixels();
+                tile.error.copy_from_slice(&found.error[..pixels]);
+            }
         }
         Why::Samples
     }
@@ -206,24 +198,22 @@ impl Picture {
             }
         }
         let most = samples.unwrap_or(MOST);
-        let mut wanted = if asked.is_none() && samples.is_some() { most } else { 2 };
+        let mut wanted = if asked.is_none() && samples.is_some() { most } else { 2.min(most) };
         loop {
-            self.round(control, |found, tiles| {
-                refine(tiles, (job.sampler, &spread), job.exposure, |_, _| wanted, found);
-            });
+            self.refine_to(job, control, &spread, |_, _| wanted);
             if let Some(progress) = job.progress {
                 progress(self.samples, self.samples);
             }
             if let (_, Some(why)) = control.state() {
                 return why;
             }
-            if asked.is_some_and(|asked| self.predicted(&self.tally()) <= asked * MARGIN) {
+            if asked.is_some_and(|asked| self.predicted() <= asked * MARGIN) {
                 return Why::Error;
             }
             if wanted >= most {
                 return if samples.is_some() { Why::Samples } else { Why::MostSamples };
             }
-            wanted = (2 * wanted).min(most);
+            wanted = wanted.saturating_mul(2).min(most);
         }
     }
 
@@ -235,154 +225,113 @@ impl Picture {
         asked: Option<f64>,
     ) -> (Why, Option<Forecast>) {
         self.first_samples(job, control, Where::Anywhere);
-        let edges = self.look(job);
-        for (tile, edges) in self.tiles.iter_mut().zip(edges) {
-            for mut edge in edges {
-                if !edge.is_odd {
-                    // Its first sample had no part in the decision.
-                    let (index, colour) = (usize::from(edge.index), edge.shift);
-                    let signature = u64::from(tile.signature[index]);
-                    edge.add(
-                        0,
-                        &crate::Seen { radiance: colour, signature },
-                        tile.signature[index],
-                    );
-                }
-                tile.refine(edge);
+        let found = self.look(job.lanes);
+        for (tile, found) in self.tiles.iter_mut().zip(found) {
+            if !tile.place.is_empty() {
+                tile.take(found);
             }
         }
+        self.mark_thin_ones();
         let spread = Spread { strategy: Strategy::Edges, seed: job.sampling.seed };
-        // Each has a sample in either half before anything is decided.
-        self.refine_to(job, control, &spread, |_, _| 2);
-        let asked = asked.unwrap_or(0.0);
-        let mut target = asked.max(FIRST_TARGET);
+        let pixels = self.pixels();
+        let allowed = |target: f64| target * MARGIN * target * MARGIN * pixels;
+        let mut target = asked.unwrap_or(FIRST_TARGET);
         let mut forecast = None;
         loop {
+            // Contours to their ends; and each pixel has a sample in either half before anything
+            // is decided.
+            loop {
+                let is_longer = self.follow_contours();
+                self.refine_to(job, control, &spread, |tile, k| tile.standing[k].count.max(2));
+                if self.lead_thin_ones() {
+                    self.refine_to(job, control, &spread, Tile::least);
+                }
+                if !is_longer || control.state().1.is_some() {
+                    break;
+                }
+            }
             if let (_, Some(why)) = control.state() {
                 return (why, forecast);
             }
-            self.follow_contours();
-            self.refine_to(job, control, &spread, |_, pixel| pixel.count().max(2));
-            self.keep_up(job, control, &spread);
-            let tally = self.tally();
-            let pixels = self.pixels();
-            let allowed = |target: f64| target * MARGIN * target * MARGIN * pixels;
-            if forecast.is_none() && target < FIRST_TARGET && asked > 0.0 {
-                forecast = self.forecast(job, &tally, allowed(asked));
-            }
+            let expected = self.table.expected();
+            let tally = self.tally(&expected);
             if tally.error() + self.missed <= allowed(target) {
-                if target <= asked {
+                if asked.is_some() {
                     return (Why::Error, forecast);
                 }
-                target = asked.max(target / 2.0);
+                target /= 2.0;
+                if target == 0.0 {
+                    return (Why::MostSamples, forecast);
+                }
                 continue;
             }
             if self.missed > MISSED * allowed(target) && self.look_around() {
                 continue;
             }
-            let Some(plan) = plan(&tally, (allowed(target) - self.missed).max(0.0), MOST) else {
+            let left = (allowed(target) - self.missed).max(0.0);
+            let Some(plan) = plan(&tally, left, MOST) else {
                 return (Why::MostSamples, forecast);
             };
             if let Some(progress) = job.progress {
                 progress(self.samples, self.samples + plan.to_come as u64);
             }
+            if asked.is_some() && forecast.is_none() && self.is_under_way(plan.to_come) {
+                forecast = self.foretell(job, plan.to_come);
+            }
             let before = self.samples;
-            self.carry_out(job, control, &spread, &plan);
+            self.carry_out(job, control, (&spread, &expected), &plan);
             if self.samples == before && control.state().1.is_none() {
                 // A part of a few pixels may be none of them.
-                self.carry_out(job, control, &spread, &plan.of_all());
+                self.carry_out(job, control, (&spread, &expected), &plan.of_all());
             }
         }
     }
 
+    /// Gives each refined pixel the number of samples that `wanted` says for it, if any needs
+    /// more.
     fn refine_to(
         &mut self,
         job: &Job<'_>,
         control: &Control<'_>,
         spread: &Spread,
-        wanted: impl Fn(&Tile, &Pixel) -> u32 + Sync,
+        wanted: impl Fn(&Tile, usize) -> u32 + Sync,
     ) {
-        let sees = (job.sampler, spread);
-        let is_wanted = |tile: &Tile| tile.refined.iter().any(|p| wanted(tile, p) > p.count());
-        if self.tiles.par_iter().any(is_wanted) {
-            self.round(control, |found, tiles| {
-                refine(tiles, sees, job.exposure, &wanted, found);
-            });
+        let needs =
+            |tile: &Tile| (0..tile.refined.len()).any(|k| wanted(tile, k) > tile.standing[k].count);
+        if self.tiles.par_iter().any(needs) {
+            let (sees, exposure) = ((job.sampler, spread), self.exposure);
+            self.round(control, |found, tiles| refine(tiles, sees, exposure, &wanted, found));
         }
     }
 
     /// Refines what the plan says.
-    fn carry_out(&mut self, job: &Job<'_>, control: &Control<'_>, spread: &Spread, plan: &Plan) {
-        let (table, exposure) = (self.table.clone(), self.exposure);
+    fn carry_out(
+        &mut self,
+        job: &Job<'_>,
+        control: &Control<'_>,
+        (spread, expected): (&Spread, &Expected),
+        plan: &Plan,
+    ) {
         self.tiles.par_iter_mut().for_each(|tile| tile.promote(plan));
-        self.refine_to(job, control, spread, |tile, pixel| {
-            let count = pixel.count();
-            if count == 0 {
+        self.refine_to(job, control, spread, |tile, k| {
+            let standing = tile.standing[k];
+            if standing.count == 0 {
                 return SMOOTH_SAMPLES;
             }
-            let class = class(count, table.error(pixel, exposure));
-            plan.samples(class, count, tile.chance(usize::from(pixel.index)))
-        });
-    }
-
-    /// Gives pixels beside what was found between samples as many samples as that has. There a
-    /// pixel that seems empty may be one in which the same thin thing was not met yet: so
-    /// whether it goes on depends on the others, and it is right in the mean.
-    fn keep_up(&mut self, job: &Job<'_>, control: &Control<'_>, spread: &Spread) {
-        let (tiles, across) = (&self.tiles, self.across);
-        let ahead: Vec<Vec<(usize, usize, u32)>> = (0..tiles.len())
-            .into_par_iter()
-            .map(|index| {
-                let around = Neighbours { tiles, across, index };
-                let leaders = tiles[index].refined.iter().filter(|p| p.is_mixed && p.is_thin());
-                let beside = leaders.flat_map(|pixel| {
-                    let count = pixel.count();
-                    let beside = around.beside(usize::from(pixel.index));
-                    beside.map(move |(tile, k)| (tile, k, count))
-                });
-                beside.collect()
-            })
-            .collect();
-        if ahead.iter().all(Vec::is_empty) {
-            return;
-        }
-        let mut least = vec![Vec::new(); self.tiles.len()];
-        for (tile, k, count) in ahead.into_iter().flatten() {
-            let least = &mut least[tile];
-            if least.is_empty() {
-                least.resize(self.tiles[tile].pixels(), 0);
-            }
-            least[k] = count.max(least[k]);
-        }
-        for (tile, least) in self.tiles.iter_mut().zip(least) {
-            tile.least = least;
-        }
-        self.refine_to(job, control, spread, |tile, pixel| {
-            let least = tile.least.get(usize::from(pixel.index)).copied().unwrap_or(0);
-            if pixel.is_thin() { pixel.count().max(least) } else { pixel.count() }
+            let class = class(standing.count, expected.error(standing.places));
+            plan.samples(class, standing.count, || tile.chance(usize::from(tile.refined[k].index)))
         });
     }
 
     /// Adds up what is expected of all pixels.
-    fn tally(&self) -> Tally {
+    fn tally(&mut self, expected: &Expected) -> Tally {
+        let part = self.tiles.len().div_ceil(PARTS).max(1);
         let parts: Vec<Tally> = self
             .tiles
-            .par_chunks(PART)
+            .par_chunks_mut(part)
             .map(|tiles| {
                 let mut tally = Tally::new();
-                for tile in tiles {
-                    for (index, error) in tile.error.iter().enumerate() {
-                        if !tile.is_refined.has(index) {
-                            tally.take(0, f64::from(*error));
-                        }
-                    }
-                    for pixel in &tile.refined {
-                        match pixel.count() {
-                            0 => tally.take(0, f64::from(tile.error[usize::from(pixel.index)])),
-                            count => tally.take(count, self.table.error(pixel, self.exposure)),
-                        }
-                    }
-                }
+                tiles.iter_mut().for_each(|tile| tile.tally(expected, &mut tally));
                 tally
             })
             .collect();
@@ -391,88 +340,86 @@ impl Picture {
         all
     }
 
-    fn predicted(&self, tally: &Tally) -> f64 {
+    fn predicted(&mut self) -> f64 {
+        let expected = self.table.expected();
+        let tally = self.tally(&expected);
         ((tally.error() + self.missed) / self.pixels()).sqrt()
     }
 
-    /// Pixels beside one in which a second signature was found are refined, too, so that
-    /// what is thinner than a pixel is followed along. What was found alone is counted as
-    /// many times as it would have been missed.
-    fn follow_contours(&mut self) {
-        let mut beside = Vec::new();
-        let mut missed = 0.0;
-        for (index, tile) in self.tiles.iter().enumerate() {
-            let around = Neighbours { tiles: &self.tiles, across: self.across, index };
-            for pixel in &tile.refined {
-                let k = usize::from(pixel.index);
-                let is_new = tile.is_mixed.has(k) && !tile.is_followed.has(k);
-                if !is_new && !pixel.is_odd {
-                    continue;
-                }
-                let mut is_alone = true;
-                for (other, k) in around.beside(k) {
-                    is_alone &= !self.tiles[other].is_mixed.has(k);
-                    if !self.tiles[other].is_refined.has(k) {
-                        beside.push((other, k, pixel.contrast));
-                    }
-                }
-                if pixel.is_odd && is_alone {
-                    missed += pixel.missed();
-                }
-            }
-        }
-        for tile in &mut self.tiles {
-            tile.is_followed = tile.is_mixed;
-        }
-        for (tile, k, contrast) in beside {
-            let tile = &mut self.tiles[tile];
-            if !tile.is_refined.has(k) {
-                tile.refine(Pixel::new(k, 2, tile.colour[k], contrast));
-            }
-        }
-        self.missed = missed;
+    /// Whether so much has been done that what is to come can be foretold: estimates become better
+    /// with what they are made of.
+    fn is_under_way(&self, to_come: f64) -> bool {
+        const PART: f64 = 1.0 / 3.0;
+        self.samples as f64 > PART * to_come
     }
 
-    /// Has all pixels refined that are near one that was found alone; whether there are any.
-    fn look_around(&mut self) -> bool {
-        let mut near = vec![false; self.tiles.len()];
-        for index in 0..self.tiles.len() {
-            if !self.tiles[index].refined.iter().any(|pixel| pixel.is_odd) {
-                continue;
-            }
-            let side = TILE_SIDE as isize;
-            let around = Neighbours { tiles: &self.tiles, across: self.across, index };
-            for (x, y) in (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (dx * side, dy * side))) {
-                if let Some((tile, _)) = around.find(x, y) {
-                    near[tile] = true;
-                }
-            }
-        }
-        let mut is_new = false;
-        for (tile, _) in self.tiles.iter_mut().zip(near).filter(|(_, near)| *near) {
-            let contrast = tile.refined.iter().filter(|pixel| pixel.is_odd);
-            let contrast = contrast.map(|pixel| pixel.contrast).fold(0.0, f32::max);
-            for k in 0..tile.pixels() {
-                if !tile.is_refined.has(k) {
-                    is_new = true;
-                    tile.refine(Pixel::new(k, 2, tile.colour[k], contrast));
-                }
-            }
-        }
-        is_new
-    }
-
-    /// How long it would take until the sum of squared errors is that.
-    fn forecast(&self, job: &Job<'_>, tally: &Tally, target: f64) -> Option<Forecast> {
+    /// How long it would take with so many samples more.
+    fn foretell(&self, job: &Job<'_>, to_come: f64) -> Option<Forecast> {
         let made_after = job.begun.elapsed();
-        let to_come = plan(tally, target, MOST).map_or(0.0, |plan| plan.to_come);
         let more = made_after.as_secs_f64() * to_come / (self.samples as f64).max(1.0);
-        let more = std::time::Duration::try_from_secs_f64(more).ok()?;
-        Some(Forecast { all: made_after.checked_add(more)?, made_after })
+        let more = Duration::try_from_secs_f64(more).ok()?;
+        let forecast = Forecast { all: made_after.checked_add(more)?, made_after };
+        if let Some(tell) = job.forecast {
+            tell(forecast);
+        }
+        Some(forecast)
     }
 }
 
 impl Tile {
+    /// How many pixels have no sample.
+    fn unseen(&self) -> u64 {
+        if !self.place.is_empty() {
+            return 0;
+        }
+        let seen = self.standing.iter().filter(|standing| standing.count > 0).count();
+        (self.pixels() - seen) as u64
+    }
+
+    /// Takes in what was found by looking at first samples.
+    fn take(&mut self, found: Analysis) {
+        let pixels = self.pixels();
+        self.colour.copy_from_slice(&found.colour[..pixels]);
+        self.error.copy_from_slice(&found.error[..pixels]);
+        self.refined.reserve(found.edges.len());
+        self.standing.reserve(found.edges.len());
+        for mut edge in found.edges {
+            if !edge.is_odd {
+                // Its first sample had no part in the decision.
+                let signature = self.signature[usize::from(edge.index)];
+                let seen = crate::Seen { radiance: edge.shift, signature: u64::from(signature) };
+                edge.add(0, &seen, signature);
+            }
+            self.refine(edge);
+        }
+    }
+
+    fn tally(&mut self, expected: &Expected, tally: &mut Tally) {
+        if self.smooth.is_none() {
+            let mut smooth: Vec<(usize, Class)> = Vec::new();
+            for (index, error) in self.error.iter().enumerate() {
+                if self.is_refined.has(index) {
+                    continue;
+                }
+                let error = f64::from(*error);
+                let class = class(0, error);
+                match smooth.iter_mut().find(|(other, _)| *other == class) {
+                    Some((_, known)) => known.take(error),
+                    None => smooth.push((class, Class { pixels: 1, error })),
+                }
+            }
+            self.smooth = Some(smooth);
+        }
+        self.smooth.iter().flatten().for_each(|(class, of)| tally.add_to(*class, of));
+        for (pixel, standing) in self.refined.iter().zip(&self.standing) {
+            if standing.count < 2 {
+                tally.take(0, f64::from(self.error[usize::from(pixel.index)]));
+            } else {
+                tally.take(standing.count, expected.error(standing.places));
+            }
+        }
+    }
+
     /// A number from 0 to 1 for each pixel, as if by chance.
     fn chance(&self, index: usize) -> f64 {
         let (x, y) = self.pixel(index);
@@ -482,26 +429,17 @@ impl Tile {
 
     /// Has smooth pixels refined from now on whose error matters.
     fn promote(&mut self, plan: &Plan) {
+        if !plan.promotes() {
+            return;
+        }
         for index in 0..self.pixels() {
             if self.is_refined.has(index) {
                 continue;
             }
-            let error = f64::from(self.error[index]);
-            if plan.samples(class(0, error), 0, self.chance(index)) > 0 {
+            let class = class(0, f64::from(self.error[index]));
+            if plan.samples(class, 0, || self.chance(index)) > 0 {
                 self.refine(Pixel::new(index, 2, self.colour[index], self.error[index]));
             }
         }
-    }
-}
-
-impl Pixel {
-    /// The squared error of what was missed, for each pixel of which a single sample has
-    /// found what few would: of 1 / p such pixels one is found, where p is the part of the pixel
-    /// that shows it (Horvitz and Thompson, 1952).
-    fn missed(&self) -> f64 {
-        let n = f64::from(self.count());
-        let part = (f64::from(self.same) + 0.5) / (n + 1.0);
-        // The contrast is a quarter of the squared difference.
-        part * (1.0 - part) * 4.0 * f64::from(self.contrast)
     }
 }

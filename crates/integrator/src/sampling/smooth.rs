@@ -40,11 +40,12 @@ const ALONG: usize = 9;
 const COLOURS: usize = 15;
 
 /// What was found of a tile.
+#[derive(Clone)]
 pub(super) struct Analysis {
     /// The values of smooth pixels; of others as they were.
-    pub(super) colour: Vec<Rgb>,
+    pub(super) colour: [Rgb; TILE],
     /// The expected squares of their errors.
-    pub(super) error: Vec<f32>,
+    pub(super) error: [f32; TILE],
     /// Those to be refined.
     pub(super) edges: Vec<Pixel>,
 }
@@ -106,35 +107,57 @@ impl Halo {
             y: [0.0; AREA],
             colour: [[0.0; AREA]; 3],
         };
+        let width = around.tiles[around.index].window.width as isize;
         for row in 0..SIDE {
-            for column in 0..SIDE {
-                let (x, y) = (column as isize - 1, row as isize - 1);
+            let y = row as isize - 1;
+            for (x, count) in [(-1, 1), (0, width), (width, 1)] {
                 let Some((tile, k)) = around.find(x, y) else { continue };
                 let tile = &around.tiles[tile];
                 if tile.place.is_empty() {
                     continue;
                 }
-                let at = row * SIDE + column;
-                halo.is_there[at] = u32::MAX;
-                halo.signature[at] = tile.signature[k];
-                let [u, v] = tile.place[k];
-                halo.x[at] = x as f64 + f64::from(u) - 8.0;
-                halo.y[at] = y as f64 + f64::from(v) - 8.0;
-                for (to, from) in halo.colour.iter_mut().zip(tile.colour[k]) {
-                    to[at] = f64::from(from) * exposure;
+                for step in 0..count as usize {
+                    halo.put(row * SIDE + (x + 1) as usize + step, tile, k + step, exposure);
                 }
             }
         }
         halo
     }
 
+    #[inline]
+    fn put(&mut self, at: usize, tile: &Tile, k: usize, exposure: f64) {
+        self.is_there[at] = u32::MAX;
+        self.signature[at] = tile.signature[k];
+        let [u, v] = tile.place[k];
+        // From the middle of a tile.
+        self.x[at] = (at % SIDE) as f64 - 9.0 + f64::from(u);
+        self.y[at] = (at / SIDE) as f64 - 9.0 + f64::from(v);
+        for (to, from) in self.colour.iter_mut().zip(tile.colour[k]) {
+            to[at] = f64::from(from) * exposure;
+        }
+    }
+
+    /// How near to the pixel's centre a neighbour's sample has met something else: 0 where that
+    /// is hardly outside of the pixel, 3 where it is farthest.
+    fn nearness(&self, at: usize) -> u8 {
+        let (x, y) = ((at % SIDE) as f64 - 8.5, (at / SIDE) as f64 - 8.5);
+        let others = AROUND.iter().map(|step| at.wrapping_add_signed(*step));
+        let others = others.filter(|other| {
+            self.is_there[*other] != 0 && self.signature[*other] != self.signature[at]
+        });
+        let distance = |other: usize| (self.x[other] - x).abs().max((self.y[other] - y).abs());
+        let nearest = others.map(distance).fold(1.5, f64::min);
+        (4.0 * (nearest - 0.5)).clamp(0.0, 3.0) as u8
+    }
+
     /// Whether a neighbour of each pixel has met something else.
     fn edges(&self) -> [u32; AREA] {
         let mut differs = [0; AREA];
         for step in AROUND {
-            for at in SIDE + 1..AREA - SIDE - 1 {
+            let inside = SIDE + 1..AREA - SIDE - 1;
+            for (at, differs) in inside.clone().zip(&mut differs[inside]) {
                 let other = at.wrapping_add_signed(step);
-                differs[at] |= (self.signature[at] ^ self.signature[other]) & self.is_there[other];
+                *differs |= (self.signature[at] ^ self.signature[other]) & self.is_there[other];
             }
         }
         differs
@@ -173,14 +196,19 @@ impl Halo {
     }
 }
 
+impl Analysis {
+    /// Of nothing yet.
+    pub(super) const EMPTY: Self =
+        Self { colour: [[0.0; 3]; TILE], error: [0.0; TILE], edges: Vec::new() };
+}
+
 /// Looks at the first samples of a tile.
-pub(super) fn analyse(around: &Neighbours<'_>, exposure: f64, width: Width) -> Analysis {
+pub(super) fn analyse(around: &Neighbours<'_>, exposure: f64, width: Width, to: &mut Analysis) {
     let tile = &around.tiles[around.index];
     let halo = Halo::new(around, exposure);
     let differs = halo.edges();
-    let mut colour = tile.colour.clone();
-    let mut error = vec![0.0; tile.pixels()];
-    let mut edges = Vec::new();
+    let Analysis { colour, error, edges } = to;
+    colour[..tile.pixels()].copy_from_slice(&tile.colour);
     let mut fits = Fits { values: [[0.0; TILE]; 3], residual: [0.0; TILE] };
     dispatch(width, Fit { halo: &halo, fits: &mut fits });
     for k in 0..tile.pixels() {
@@ -209,9 +237,9 @@ pub(super) fn analyse(around: &Neighbours<'_>, exposure: f64, width: Width) -> A
         error[k] = contrast as f32 * OF_CONTRAST;
         let mut pixel = Pixel::new(k, if is_odd { 2 } else { 0 }, tile.colour[k], contrast as f32);
         pixel.is_odd = is_odd;
+        pixel.nearness = if is_odd { 0 } else { halo.nearness(at) };
         edges.push(pixel);
     }
-    Analysis { colour, error, edges }
 }
 
 /// What comes of planes through the pixels of a tile and their neighbours, in rows of
@@ -239,8 +267,7 @@ impl Work for Fit<'_> {
         for (at, is_there) in halo.is_there.iter().enumerate() {
             moments[COUNT][at] = if *is_there == 0 { 0.0 } else { 1.0 };
         }
-        for at in 0..AREA {
-            let (x, y) = (halo.x[at], halo.y[at]);
+        for (at, (&x, &y)) in halo.x.iter().zip(&halo.y).enumerate() {
             moments[PLACE][at] = x;
             moments[PLACE + 1][at] = y;
             moments[SQUARES][at] = x * x;

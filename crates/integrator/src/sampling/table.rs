@@ -7,15 +7,18 @@ pub(super) const LEVELS: usize = 21;
 /// Scatters are told apart by factors of 2, from 2^-30 to 1; twice, since those of pixels without
 /// scatter are that of their neighbours.
 const STEPS: usize = 31;
-const SCATTERS: usize = 2 * STEPS;
+/// And by how near something else was met, where a half itself has no scatter.
+const NEARNESSES: usize = 4;
+const SCATTERS: usize = (1 + NEARNESSES) * STEPS;
 /// Squared errors likewise; the first one is none at all.
 const SIZES: usize = 42;
 
 /// For each number of samples and scatter within a half, what the difference of the
 /// halves has told.
-#[derive(Clone)]
+#[derive(Default)]
 pub(super) struct Table {
-    cells: Vec<Cell>,
+    /// A row of cells for each number of samples, as far as there are any.
+    rows: [Option<Vec<Cell>>; LEVELS],
 }
 
 #[derive(Clone, Copy)]
@@ -37,13 +40,13 @@ const UNIT: f64 = 1_152_921_504_606_846_976.0; // 2^60
 pub(super) struct Place(usize);
 
 /// The place of a half of a pixel.
-pub(super) fn place(half: &Half, contrast: f32, exposure: f64) -> Place {
+pub(super) fn place(half: &Half, pixel: &Pixel, exposure: f64) -> Place {
     let level = half.count.max(1).ilog2() as usize;
     let variance = half.variance(exposure);
     let scatter = if half.count > 1 && variance > 0.0 {
         step(variance)
     } else {
-        STEPS + step(f64::from(contrast))
+        STEPS * (1 + usize::from(pixel.nearness)) + step(f64::from(pixel.contrast))
     };
     Place(level.min(LEVELS - 1) * SCATTERS + scatter)
 }
@@ -69,20 +72,29 @@ impl Place {
         if step < STEPS {
             size(step) / (2.0 * n)
         } else if n == 1.0 {
-            size(step - STEPS) / 2.0
+            size(step % STEPS) / 2.0
         } else {
-            size(step - STEPS) / ((n + 1.0) * (n + 1.0))
+            size(step % STEPS) / ((n + 1.0) * (n + 1.0))
         }
     }
 }
 
+impl Place {
+    /// As a number for all.
+    pub(super) const fn number(self) -> u16 {
+        self.0 as u16
+    }
+}
+
 impl Table {
-    pub(super) fn new() -> Self {
-        Self { cells: vec![Cell::EMPTY; LEVELS * SCATTERS] }
+    fn cell(&self, place: Place) -> &Cell {
+        let row = self.rows[place.0 / SCATTERS].as_ref();
+        row.map_or(&Cell::EMPTY, |row| &row[place.0 % SCATTERS])
     }
 
-    /// Takes in a pixel whose halves have come to new numbers of samples.
-    pub(super) fn take(&mut self, pixel: &Pixel, exposure: f64) {
+    /// Takes in a pixel whose halves have come to new numbers of samples; gives their
+    /// places.
+    pub(super) fn take(&mut self, pixel: &Pixel, exposure: f64) -> [u16; 2] {
         let observed = pixel.observed(exposure);
         let whole = (observed * UNIT) as u128;
         let size = if observed > 0.0 {
@@ -90,50 +102,54 @@ impl Table {
         } else {
             0
         };
-        for half in &pixel.halves {
-            let cell = &mut self.cells[place(half, pixel.contrast, exposure).0];
+        pixel.halves.each_ref().map(|half| {
+            let place = place(half, pixel, exposure);
+            let row = &mut self.rows[place.0 / SCATTERS];
+            let row = row.get_or_insert_with(|| vec![Cell::EMPTY; SCATTERS]);
+            let cell = &mut row[place.0 % SCATTERS];
             cell.count += 1;
             cell.sum += whole;
             cell.sizes[size] += 1;
-        }
+            place.number()
+        })
     }
 
     pub(super) fn add(&mut self, other: &Self) {
-        for (cell, other) in self.cells.iter_mut().zip(&other.cells) {
-            cell.count += other.count;
-            cell.sum += other.sum;
-            for (size, other) in cell.sizes.iter_mut().zip(other.sizes) {
-                *size += other;
+        for (row, other) in self.rows.iter_mut().zip(&other.rows) {
+            let Some(other) = other else { continue };
+            let row = row.get_or_insert_with(|| vec![Cell::EMPTY; SCATTERS]);
+            for (cell, other) in row.iter_mut().zip(other) {
+                cell.count += other.count;
+                cell.sum += other.sum;
+                for (size, other) in cell.sizes.iter_mut().zip(other.sizes) {
+                    *size += other;
+                }
             }
         }
     }
 
     /// The expected squared error of a pixel with a half at that place.
-    fn expected(&self, place: Place) -> f64 {
-        let cell = &self.cells[place.0];
+    fn expected_at(&self, place: Place) -> f64 {
+        let cell = self.cell(place);
         (cell.sum as f64 / UNIT + place.guess()) / (cell.count as f64 + 1.0)
     }
 
-    /// The expected squared error of a pixel.
-    pub(super) fn error(&self, pixel: &Pixel, exposure: f64) -> f64 {
-        let [a, b] = pixel
-            .halves
-            .each_ref()
-            .map(|half| self.expected(place(half, pixel.contrast, exposure)));
-        (a + b) / 2.0
+    /// The expected squared errors by the places of halves.
+    pub(super) fn expected(&self) -> Expected {
+        Expected((0..self.places()).map(|at| self.expected_at(Place(at))).collect())
     }
 
-    /// What the error of a pixel does not exceed in 95 of 100 like it.
-    pub(super) fn interval(&self, pixel: &Pixel, exposure: f64) -> f64 {
-        let squares = pixel.halves.each_ref().map(|half| {
-            let place = place(half, pixel.contrast, exposure);
-            self.quantile(place)
-        });
-        ((squares[0] + squares[1]) / 2.0).sqrt()
+    fn places(&self) -> usize {
+        self.rows.iter().rposition(Option::is_some).map_or(0, |last| (last + 1) * SCATTERS)
+    }
+
+    /// Of the squared errors by the places of halves, what 95 of 100 do not exceed.
+    pub(super) fn largest(&self) -> Expected {
+        Expected((0..self.places()).map(|at| self.quantile(Place(at))).collect())
     }
 
     fn quantile(&self, place: Place) -> f64 {
-        let cell = &self.cells[place.0];
+        let cell = self.cell(place);
         let wanted = cell.count as f64 * 0.95;
         let mut below = 0.0;
         for (size, &count) in cell.sizes.iter().enumerate() {
@@ -149,6 +165,18 @@ impl Table {
             below = next;
         }
         // None or hardly any was off: then no less than twice the deviation.
-        4.0 * self.expected(place)
+        4.0 * self.expected_at(place)
+    }
+}
+
+/// Squared errors of pixels by the places of their halves.
+pub(super) struct Expected(Vec<f64>);
+
+impl Expected {
+    /// That of a pixel whose halves have those places.
+    pub(super) fn error(&self, places: [u16; 2]) -> f64 {
+        // Each half is judged by what the others of others were, so both are.
+        let [a, b] = places.map(|place| self.0[usize::from(place)]);
+        (a + b) / 2.0
     }
 }

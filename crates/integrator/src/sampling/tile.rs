@@ -1,5 +1,6 @@
 //! What is known of the pixels of a tile.
 
+use super::plan::Class;
 use crate::{Rgb, Seen, TILE_SIDE};
 use lancer_film::Window;
 
@@ -22,12 +23,28 @@ pub(super) struct Tile {
     /// Those in which something else was found than what the first sample met, or the first
     /// sample alone met what it met.
     pub(super) is_mixed: Set,
-    /// Those of them whose neighbours are refined for it.
+    /// Those in which there may be something that was found only between first samples, or by one of
+    /// them alone.
+    pub(super) is_thin: Set,
+    /// Those of the mixed ones whose neighbours are refined for it.
     pub(super) is_followed: Set,
+    /// Those that are not refined by their classes, where that is known.
+    pub(super) smooth: Option<Vec<(usize, Class)>>,
     /// So many samples its pixels should have at least, if any should.
     pub(super) least: Vec<u32>,
-    /// Those, in the order in which that was found necessary.
+    /// The refined pixels, in the order in which that was found necessary.
     pub(super) refined: Vec<Pixel>,
+    /// Where each of them stands: what is looked at in each round.
+    pub(super) standing: Vec<Standing>,
+    /// Those among them that are odd.
+    pub(super) odd: Vec<u16>,
+}
+
+/// How many samples a refined pixel has, and the places of its halves in the table.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Standing {
+    pub(super) places: [u16; 2],
+    pub(super) count: u32,
 }
 
 /// A pixel that gets more than one sample.
@@ -43,6 +60,8 @@ pub(super) struct Pixel {
     pub(super) is_odd: bool,
     /// The variance among the first samples of its neighbours, of exposed values.
     pub(super) contrast: f32,
+    /// How near a neighbour's first sample is that has met something else, from 0 to 3.
+    pub(super) nearness: u8,
     /// How many samples, the first one not among them unless it counts, met what it met.
     pub(super) same: u32,
     /// What sums are relative to.
@@ -71,9 +90,13 @@ impl Tile {
             error: vec![1.0; pixels],
             is_refined: Set::default(),
             is_mixed: Set::default(),
+            is_thin: Set::default(),
             is_followed: Set::default(),
+            smooth: None,
             least: Vec::new(),
             refined: Vec::new(),
+            standing: Vec::new(),
+            odd: Vec::new(),
         }
     }
 
@@ -91,9 +114,15 @@ impl Tile {
     pub(super) fn refine(&mut self, pixel: Pixel) {
         let index = usize::from(pixel.index);
         self.is_refined.put(index);
+        self.smooth = None;
         if pixel.is_odd {
             self.is_mixed.put(index);
+            self.odd.push(self.refined.len() as u16);
         }
+        if pixel.is_thin() {
+            self.is_thin.put(index);
+        }
+        self.standing.push(Standing { places: [0; 2], count: pixel.count() });
         self.refined.push(pixel);
     }
 }
@@ -109,6 +138,20 @@ impl Set {
 
     pub(super) fn put(&mut self, index: usize) {
         self.0[index / 64] |= 1 << (index % 64);
+    }
+
+    /// Those that are in both.
+    pub(super) fn and(&self, other: &Self) -> Self {
+        Self(std::array::from_fn(|k| self.0[k] & other.0[k]))
+    }
+
+    /// Those that are not in the other one.
+    pub(super) fn without(&self, other: &Self) -> Self {
+        Self(std::array::from_fn(|k| self.0[k] & !other.0[k]))
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.0 == [0; TILE / 64]
     }
 }
 
@@ -149,6 +192,7 @@ impl Pixel {
             is_mixed: false,
             is_odd: false,
             contrast,
+            nearness: 0,
             same: 0,
             shift: first,
             halves: [Half::default(); 2],

@@ -102,9 +102,9 @@ struct Shining {
 }
 
 impl Source {
-    /// From that way, at whose end is the lamp, or none for a sun. None where there is no
+    /// What comes from that way, at whose end is the lamp, or none for a sun. None where there is no
     /// light.
-    fn from_there(&self, seen: &Seen<'_>, way: Vector, lamp: Option<&Point>) -> Option<Shining> {
+    fn shine(&self, seen: &Seen<'_>, way: Vector, lamp: Option<&Point>) -> Option<Shining> {
         let along = way.dot(&seen.shading);
         // Not for NaN either: a lamp in the very point lights nothing.
         if !(along > 0.0 && way.dot(&seen.facet) > 0.0) {
@@ -127,8 +127,8 @@ impl Source {
         Some(Shining { strength, mark, ray: Some(ray), t_max })
     }
 
-    /// From a ball, of which two numbers draw a point.
-    fn from_ball(
+    /// What comes from a ball, of which two numbers draw a point.
+    fn shine_as_ball(
         &self,
         seen: &Seen<'_>,
         (centre, radius): (&Point, f64),
@@ -231,9 +231,9 @@ impl Lights {
         let mut sum = [0.0; 3];
         for (number, light) in self.lights.iter().enumerate() {
             let shining = match &light.place {
-                From::Direction(direction) => light.from_there(seen, *direction, None),
-                From::Point(lamp) => light.from_there(seen, lamp - seen.point.point, Some(lamp)),
-                From::Ball(centre, radius) => light.from_ball(seen, (centre, *radius), || {
+                From::Direction(direction) => light.shine(seen, *direction, None),
+                From::Point(lamp) => light.shine(seen, lamp - seen.point.point, Some(lamp)),
+                From::Ball(centre, radius) => light.shine_as_ball(seen, (centre, *radius), || {
                     task.stream.pair(dimension(way, number))
                 }),
             };

@@ -1,8 +1,10 @@
 //! Pictures whose right values are known, sampled.
 
+mod ends;
 mod painted;
+mod thin;
 
-use lancer_integrator::{Sampling, Strategy};
+use lancer_integrator::{Sampling, Strategy, Why};
 use painted::{coverage, picture, true_error};
 
 fn asked(error: f64, seed: u64) -> Sampling {
@@ -15,65 +17,125 @@ fn half_plane(x: f64, y: f64) -> (f64, u64) {
     (f64::from(u8::from(is_in)), u64::from(is_in))
 }
 
-/// A bar of that width, tilted by 7.3 degrees against the horizontal.
-fn bar(width: f64) -> impl Fn(f64, f64) -> (f64, u64) + Sync {
-    let slope = libm::tan(7.3_f64.to_radians());
-    let high = width / libm::cos(7.3_f64.to_radians());
-    move |x, y| {
-        let is_in = (y - 40.0 - slope * x).abs() < high / 2.0;
-        (f64::from(u8::from(is_in)), u64::from(is_in))
+fn of_half_plane() -> Vec<f64> {
+    coverage(64, |y| vec![[0.0, 20.3 + 0.4 * y]])
+}
+
+/// Over strategies and errors: what is asked for is met, what is predicted is about what it is, and
+/// looking for edges takes a tenth of the samples.
+#[test]
+fn errors_are_what_is_predicted_and_no_more_than_what_is_asked_for() {
+    let right = of_half_plane();
+    let mut samples = [0, 0];
+    for (k, strategy) in Strategy::ALL.iter().enumerate() {
+        for error in [0.02, 0.01, 0.005] {
+            let (mut predicted, mut found) = (0.0, 0.0);
+            for seed in 0..8 {
+                let sampling = Sampling { strategy: *strategy, ..asked(error, seed) };
+                let rendered = picture(64, sampling, 1, half_plane);
+                let accuracy = rendered.accuracy.expect("sampled");
+                assert_eq!(accuracy.stopped, Why::Error);
+                assert!(accuracy.predicted <= error);
+                let off = true_error(&rendered, &right);
+                assert!(off < 1.25 * error, "{} {error}: {off}", strategy.name());
+                predicted += accuracy.predicted * accuracy.predicted;
+                found += off * off;
+                if error == 0.005 && k < 2 {
+                    samples[k] += accuracy.samples;
+                }
+            }
+            let ratio = (predicted / found).sqrt();
+            assert!((0.85..1.7).contains(&ratio), "{} {error}: {ratio}", strategy.name());
+        }
+    }
+    assert!(10 * samples[0] < samples[1], "{samples:?}");
+}
+
+/// Of the pixels that are not smooth, about 95 in 100 are off by no more than their interval.
+#[test]
+fn intervals_hold_what_they_say() {
+    let right = of_half_plane();
+    let (mut all, mut inside) = (0, 0);
+    for seed in 0..40 {
+        let rendered = picture(64, asked(0.006, seed), 1, half_plane);
+        let quality = rendered.quality.expect("sampled");
+        for ((pixel, known), right) in
+            rendered.film.pixels().iter().zip(quality.pixels()).zip(&right)
+        {
+            if known.samples > 1 {
+                all += 1;
+                let off = (f64::from(pixel[0]) - right).abs();
+                inside += u32::from(off <= f64::from(known.interval));
+            }
+        }
+    }
+    let share = f64::from(inside) / f64::from(all);
+    assert!((0.92..0.985).contains(&share), "{share}");
+}
+
+/// A smooth picture takes one sample in each pixel, and its error, of the second order, is
+/// told within a factor of two.
+#[test]
+fn smooth_pictures_take_one_sample_a_pixel() {
+    let at = |x: f64, y: f64| 0.5 + 0.3 * libm::sin(x * 0.2) * libm::cos(y * 0.15);
+    let right: Vec<f64> = (0..48 * 48)
+        .map(|k| {
+            // The mean over the pixel by closed form.
+            let (x, y) = (f64::from(k % 48), f64::from(k / 48));
+            let across = (libm::cos(x * 0.2) - libm::cos((x + 1.0) * 0.2)) / 0.2;
+            let down = (libm::sin((y + 1.0) * 0.15) - libm::sin(y * 0.15)) / 0.15;
+            0.5 + 0.3 * across * down
+        })
+        .collect();
+    for seed in 0..8 {
+        let rendered = picture(48, asked(0.002, seed), 2, |x, y| (at(x, y), 7));
+        let accuracy = rendered.accuracy.expect("sampled");
+        assert_eq!((accuracy.samples, rendered.counts.primary), (48 * 48, 48 * 48));
+        let ratio = accuracy.predicted / true_error(&rendered, &right);
+        assert!((0.5..2.0).contains(&ratio), "{ratio}");
+    }
+    // Where more is asked for, those that are least certain get more samples.
+    let rendered = picture(48, asked(0.0002, 0), 2, |x, y| (at(x, y), 7));
+    assert!(rendered.accuracy.expect("sampled").samples > 48 * 48);
+    assert!(true_error(&rendered, &right) < 0.00025);
+}
+
+/// Rows of a checker towards the horizon, where a pixel holds hundreds of cells.
+#[test]
+fn x3_a_checker_to_the_horizon_comes_to_its_mean() {
+    let depth = |y: f64| 1.0 / libm::tan((y + 1e-9) / 512.0);
+    let right: Vec<f64> = (0..64 * 64)
+        .map(|k| {
+            const STEPS: u32 = 20_000;
+            let row = f64::from(k / 64);
+            let odd = (0..STEPS).filter(|step| {
+                let y = row + (f64::from(*step) + 0.5) / f64::from(STEPS);
+                depth(y).floor() % 2.0 == 1.0
+            });
+            odd.count() as f64 / f64::from(STEPS)
+        })
+        .collect();
+    for error in [0.01, 0.003] {
+        let rendered = picture(64, asked(error, 3), 2, |_, y| {
+            let cell = depth(y).floor();
+            (cell % 2.0, cell as u64)
+        });
+        let off = true_error(&rendered, &right);
+        assert!(off < 1.1 * error, "{error}: {off}");
     }
 }
 
+/// Radiance is averaged first, then exposed, then clipped.
 #[test]
-fn explore() {
-    let right = coverage(64, |y| vec![[0.0, 20.3 + 0.4 * y]]);
-    for strategy in Strategy::ALL {
-        for error in [0.01, 0.003, 0.001, 0.0003] {
-            if *strategy != Strategy::Edges && error < 0.003 {
-                continue;
-            }
-            let sampling = Sampling { strategy: *strategy, ..asked(error, 1) };
-            let rendered = picture(64, sampling, 1, half_plane);
-            let accuracy = rendered.accuracy.expect("sampled");
-            println!(
-                "{} {error}: predicted {:.6}, true {:.6}, {} samples, {:?} {}",
-                strategy.name(),
-                accuracy.predicted,
-                true_error(&rendered, &right),
-                accuracy.samples,
-                accuracy.stopped,
-                accuracy.at
-            );
-        }
-    }
-    for width in [0.5, 0.1, 0.02] {
-        let all = width / libm::cos(7.3_f64.to_radians()) / 128.0;
-        let mut sum = 0.0;
-        let mut samples = 0;
-        for seed in 0..64 {
-            let rendered = picture(128, asked(0.002, seed), 1, bar(width));
-            let pixels = rendered.film.pixels();
-            sum += pixels.iter().map(|p| f64::from(p[0])).sum::<f64>() / pixels.len() as f64;
-            samples = rendered.accuracy.expect("sampled").samples;
-        }
-        println!("bar {width}: {:.4} of what is right, {samples}", sum / 64.0 / all);
-    }
-    let ball = |x: f64, y: f64| {
-        let (u, v) = (x - x.floor() - 0.37, y - y.floor() - 0.61);
-        let is_in = u * u + v * v < 0.0025;
-        let number = if is_in { 1 + (x.floor() * 1000.0 + y.floor()) as u64 } else { 0 };
-        (f64::from(u8::from(is_in)), number)
+fn a3_a_highlight_is_averaged_before_it_is_clipped() {
+    let spot = |x: f64, _: f64| {
+        let is_in = x - x.floor() < 0.01;
+        (if is_in { 100.0 } else { 0.2 }, u64::from(is_in))
     };
-    let mut sum = 0.0;
-    for seed in 0..4 {
-        let rendered = picture(128, asked(0.002, seed), 1, ball);
-        let pixels = rendered.film.pixels();
-        let mean = pixels.iter().map(|p| f64::from(p[0])).sum::<f64>() / pixels.len() as f64;
-        let right = vec![std::f64::consts::PI * 0.0025; 128 * 128];
-        sum += mean / right[0];
-        let accuracy = rendered.accuracy.expect("sampled");
-        println!("balls {:?} {} {}", accuracy, mean / right[0], true_error(&rendered, &right));
+    let sampling =
+        Sampling { strategy: Strategy::Stratified, samples: Some(20_000), ..Sampling::default() };
+    let rendered = picture(2, sampling, 1, spot);
+    for pixel in rendered.film.pixels() {
+        assert!((pixel[0] - 1.198).abs() < 0.05, "{pixel:?}");
     }
-    println!("balls: {}", sum / 4.0);
 }

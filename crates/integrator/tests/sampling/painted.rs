@@ -2,13 +2,15 @@
 
 use lancer_film::Display;
 use lancer_integrator::{
-    Engine, KernelSettings, RayCounts, RenderSettings, Rendered, Rgb, Sample, Sampler, Sampling,
-    Seen, Tracer, render,
+    Engine, KernelSettings, RayCounts, RenderError, RenderSettings, Rendered, Rgb, Sample, Sampler,
+    Sampling, Seen, Tracer, render,
 };
 use lancer_scene::{Camera, Exposure, Scene, Stops};
+use std::num::NonZeroUsize;
+use std::sync::atomic::AtomicBool;
 
 /// An engine that sees a function of the place: a value and a signature.
-pub struct Painted<F>(pub F);
+pub(crate) struct Painted<F>(pub(crate) F);
 
 impl<F: Fn(f64, f64) -> (f64, u64) + Sync> Engine for Painted<F> {
     fn name(&self) -> &str {
@@ -57,26 +59,48 @@ impl<F: Fn(f64, f64) -> (f64, u64) + Sync> Sampler for Painter<'_, F> {
 }
 
 /// The picture of so many pixels along each side, with 0 stops.
-pub fn picture(
+pub(crate) fn picture(
     side: u32,
     sampling: Sampling,
     threads: usize,
     see: impl Fn(f64, f64) -> (f64, u64) + Sync,
 ) -> Rendered {
-    let camera = Camera::new([0.0; 3], [0.0, 1.0, 0.0], 1.0, [side, side]);
-    let scene = Scene::builder().camera(camera).build().expect("valid");
     let settings = RenderSettings {
         sampling: Some(sampling),
-        exposure: Some(Exposure::Stops(Stops::new(0.0).expect("in range"))),
-        threads: std::num::NonZeroUsize::new(threads),
+        threads: NonZeroUsize::new(threads),
         ..RenderSettings::default()
     };
-    render(&scene, &Painted(see), &settings).expect("rendered")
+    draw(side, settings, see).expect("rendered")
+}
+
+/// The same, which may be interrupted.
+pub(crate) fn try_picture(
+    side: u32,
+    sampling: Sampling,
+    cancel: Option<&AtomicBool>,
+    see: impl Fn(f64, f64) -> (f64, u64) + Sync,
+) -> Result<Rendered, RenderError> {
+    draw(
+        side,
+        RenderSettings { sampling: Some(sampling), cancel, ..RenderSettings::default() },
+        see,
+    )
+}
+
+fn draw(
+    side: u32,
+    settings: RenderSettings<'_>,
+    see: impl Fn(f64, f64) -> (f64, u64) + Sync,
+) -> Result<Rendered, RenderError> {
+    let camera = Camera::new([0.0; 3], [0.0, 1.0, 0.0], 1.0, [side, side]);
+    let scene = Scene::builder().camera(camera).build().expect("valid");
+    let stops = Exposure::Stops(Stops::new(0.0).expect("in range"));
+    render(&scene, &Painted(see), &RenderSettings { exposure: Some(stops), ..settings })
 }
 
 /// The part of each pixel that a shape covers which is met by each row in stretches: exactly
 /// along rows, of which there are 1024 in a pixel.
-pub fn coverage(side: u32, stretches: impl Fn(f64) -> Vec<[f64; 2]>) -> Vec<f64> {
+pub(crate) fn coverage(side: u32, stretches: impl Fn(f64) -> Vec<[f64; 2]>) -> Vec<f64> {
     const ROWS: u32 = 1024;
     let mut all = vec![0.0; (side * side) as usize];
     for row in 0..side * ROWS {
@@ -97,7 +121,7 @@ pub fn coverage(side: u32, stretches: impl Fn(f64) -> Vec<[f64; 2]>) -> Vec<f64>
 }
 
 /// The root of the mean square of what a picture is off.
-pub fn true_error(rendered: &Rendered, right: &[f64]) -> f64 {
+pub(crate) fn true_error(rendered: &Rendered, right: &[f64]) -> f64 {
     let pixels = rendered.film.pixels();
     assert_eq!(pixels.len(), right.len());
     let squares = pixels.iter().zip(right).map(|(pixel, right)| {

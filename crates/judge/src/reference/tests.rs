@@ -28,6 +28,12 @@ impl<F: Fn([f64; 2], [f64; 2]) -> f64 + Sync> Sampler for Known<F> {
             seen.radiance = [value, 0.5 * value, 0.0];
         }
     }
+
+    fn see_alone(&self, sample: &Sample, counts: &mut RayCounts) -> Seen {
+        let mut seen = [Seen::default()];
+        self.see(&[*sample], &mut seen, counts);
+        seen[0]
+    }
 }
 
 fn settings(width: u32, height: u32, error: f64) -> ReferenceSettings<'static> {

@@ -139,14 +139,12 @@ impl Places for Samples<'_> {
 
     #[inline(always)]
     fn rays<L: Lanes>(&self, lanes: L, view: &View, rays: &mut Bundle) -> [f64; 4] {
+        // Beyond the last one there may be anything that is no stranger than the others.
         let [first_x, first_y] = self.samples.first().map_or([0.0; 2], |sample| sample.place);
         let (mut x, mut y) = ([first_x; MOST], [first_y; MOST]);
-        let (mut least, mut most) = (
-            [lanes.splat(first_x), lanes.splat(first_y)],
-            [lanes.splat(first_x), lanes.splat(first_y)],
-        );
+        let far = lanes.splat(f64::INFINITY);
+        let (mut least, mut most) = ([far; 2], [-far; 2]);
         for (samples, at) in self.samples.chunks(L::WIDTH).zip((0..).step_by(L::WIDTH)) {
-            // Beyond the last one there are others.
             for (sample, (to_x, to_y)) in samples.iter().zip(x.iter_mut().zip(&mut y)) {
                 [*to_x, *to_y] = sample.place;
             }
