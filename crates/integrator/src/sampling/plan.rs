@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 
 /// By which power of the number of samples the squared error falls, about: along an edge
 /// through evenly spread samples by 1.5, where they are independent by 1.
-pub(super) const POWER: f64 = 1.25;
+pub(super) const POWER: f64 = 1.35;
 
 /// Pixels with about the same expected error and the same number of samples.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
