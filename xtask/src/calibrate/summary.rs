@@ -207,11 +207,11 @@ mod tests {
         let text = report(&runs, &[0.004, 0.002]);
         for row in [
             "| true error at most the one asked for ",
-            "| 3 of 4 (75.0 %) |",
-            "| 2 of 3 (66.7 %) |",
-            "| 380 of 400 (95.0 %) |",
-            "| 36 of 40 (90.0 %) |",
-            "| 3 of 3 (100.0 %) |",
+            " 3 of 4 (75.0 %) |",
+            " 2 of 3 (66.7 %) |",
+            " 380 of 400 (95.0 %) |",
+            " 36 of 40 (90.0 %) |",
+            " 3 of 3 (100.0 %) |",
         ] {
             assert!(text.contains(row), "{row} is not in\n{text}");
         }
