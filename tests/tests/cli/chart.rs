@@ -33,7 +33,8 @@ fn a_chart_in_each_format_and_its_figures() {
     let rows: Vec<_> = table.lines().collect();
     assert!(rows[0].starts_with("series,peer,setting,seconds,error,"), "{}", rows[0]);
     assert!(rows[1].starts_with("edges,false,--error 0.016,"), "{}", rows[1]);
-    assert!(rows.iter().any(|row| row.starts_with("sobol,false,--samples 4,")), "{table}");
+    // Points that are not ten times as far off as the reference are left out.
+    assert!(rows.iter().any(|row| row.starts_with("sobol,false,--samples ")), "{table}");
     assert!(rows.iter().all(|row| row.split(',').count() == 9), "{table}");
     assert_eq!(rows.iter().filter(|row| row.ends_with(",true,true")).count(), 1, "{table}");
 
