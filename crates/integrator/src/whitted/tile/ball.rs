@@ -9,10 +9,29 @@ use lancer_kernel::lanes::{Lanes, MOST, Mask, Vectors, lanes_of};
 use lancer_math::Point;
 
 impl<P: Places> Batch<'_, P> {
-    /// Adds the light of a ball lamp: each lane finds alone what
+    /// Adds the light of a ball lamp to what there is, with its mark: each lane finds alone what
     /// [`Lights::gather`](crate::whitted::lights::Lights::gather) does, but for what hides the lamp.
     #[inline(never)]
     pub(super) fn shine_from_ball<L: Lanes>(
+        &mut self,
+        lanes: L,
+        lamp: (&Source, usize, (&Point, f64)),
+        dimension: u32,
+        lit: Lit<L>,
+        is_grey: bool,
+        mut to: (Vectors<L::Real>, L::Real),
+    ) -> (Vectors<L::Real>, L::Real) {
+        lanes.vectorize(
+            #[inline(always)]
+            || {
+                self.look_at_ball(lanes, lamp, dimension, &lit, is_grey, (&mut to.0, &mut to.1));
+            },
+        );
+        to
+    }
+
+    #[inline(always)]
+    fn look_at_ball<L: Lanes>(
         &mut self,
         lanes: L,
         (source, index, (centre, radius)): (&Source, usize, (&Point, f64)),
@@ -55,12 +74,6 @@ impl<P: Places> Batch<'_, P> {
         let ends = Vectors::load(lanes, ends.each_ref().map(|end| &end[..]));
         let rays = Rays::new(lanes, lit.origin, ends - lit.origin);
         let asked = (&rays, 1.0, lanes.mask(asked));
-        lanes.vectorize(
-            #[inline(always)]
-            || {
-                let to = (light, marks);
-                self.cast(lanes, asked, (strength, mark), (lit.at, index), is_grey, to);
-            },
-        );
+        self.cast(lanes, asked, (strength, mark), (lit.at, index), is_grey, (light, marks));
     }
 }

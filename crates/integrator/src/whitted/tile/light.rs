@@ -13,6 +13,7 @@ use lancer_math::Vector;
 use lancer_scene::Falloff;
 
 /// The points of a register.
+#[derive(Clone, Copy)]
 pub(super) struct Lit<L: Lanes> {
     /// The place of the first one in the group.
     pub(super) at: usize,
@@ -146,7 +147,10 @@ impl<P: Places> Batch<'_, P> {
             From::Ball(centre, radius) => {
                 let numbers = dimension(met_on, index);
                 let ball = (source, index, (centre, *radius));
-                return self.shine_from_ball(lanes, ball, numbers, lit, is_grey, (light, marks));
+                // By value, so that they may stay in registers elsewhere.
+                let to = (*light, *marks);
+                (*light, *marks) = self.shine_from_ball(lanes, ball, numbers, *lit, is_grey, to);
+                return;
             }
         };
         let along = dot(&way, &lit.shading);
