@@ -177,7 +177,9 @@ impl<'a> Subject<'a> {
             }
             let is_by_error = sampling.error.is_some();
             let is_last = !is_known || (!is_by_error && error <= ladder.finest);
-            if is_last || 2.0 * seconds > ladder.longest.as_secs_f64() {
+            // Half the error takes about twice the time; counts go up by fours.
+            let times = if is_by_error { 2.0 } else { 4.0 };
+            if is_last || times * seconds > ladder.longest.as_secs_f64() {
                 break;
             }
         }

@@ -69,7 +69,8 @@ fn compared(
     scene.camera.exposure = Exposure::Stops(exposed.stops);
     let subject = Subject::new(&scene, None, kernel, cancel).map_err(failure)?;
     told.step("the reference");
-    let reference = subject.reference(0.1 * args.finest, LONGEST_REFERENCE).map_err(failure)?;
+    // A tenth of the error of the best picture, which may be half of what it is asked for.
+    let reference = subject.reference(0.05 * args.finest, LONGEST_REFERENCE).map_err(failure)?;
     let ladder = Ladder { finest: args.finest, longest: LONGEST, draws: DRAWS };
     let mut series = Vec::new();
     for strategy in args.strategies() {
