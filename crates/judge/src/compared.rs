@@ -127,12 +127,30 @@ impl Comparison {
         places
     }
 
-    /// The point of the front with the least product of time and error. Before it, on the whole,
-    /// a doubling of the time more than halves the error; beyond it, it does not.
+    /// The point of the front that is furthest below the straight way from its fastest to its most
+    /// exact one, on logarithmic axes: before it time buys more than on the whole way, beyond it
+    /// less. Where none is below, it is the end with the smaller product of time and error.
     #[must_use]
     pub fn knee(&self) -> Option<Place> {
-        let product = |place: &Place| self.point(*place).seconds * self.point(*place).error;
-        self.front().into_iter().min_by(|a, b| product(a).total_cmp(&product(b)))
+        let front = self.front();
+        let at = |place: Place| {
+            let point = self.point(place);
+            [point.seconds, point.error].map(libm::log10)
+        };
+        let (first, last) = (*front.first()?, *front.last()?);
+        let ([fast, poor], [slow, good]) = (at(first), at(last));
+        let below = |place: &Place| {
+            let [time, error] = at(*place);
+            let part = (time - fast) / (slow - fast);
+            poor + part * (good - poor) - error
+        };
+        let between = front.iter().filter(|place| ![first, last].contains(place));
+        let knee = between.max_by(|a, b| below(a).total_cmp(&below(b)));
+        match knee.filter(|place| below(place) > 0.0) {
+            Some(place) => Some(*place),
+            None if fast + poor < slow + good => Some(first),
+            None => Some(last),
+        }
     }
 
     /// What is recommended, in a sentence or two.
@@ -151,17 +169,12 @@ impl Comparison {
         let is_last = front.last() == Some(&knee);
         let why = match (is_first, is_last) {
             (true, true) => "No other of these is better in either respect",
-            (false, true) => {
-                "That is the most exact one of these, and up to it twice the time still more than \
-                 halves the error: more time may be worth it"
-            }
+            (false, true) => "That is the most exact one of these, and up to it time is well spent",
             (true, false) => {
-                "That is the fastest one of these, and beyond it twice the time no longer halves \
-                 the error"
+                "That is the fastest one of these, and from there on the error falls more slowly \
+                 than time grows"
             }
-            (false, false) => {
-                "Up to it twice the time more than halves the error, beyond it no longer"
-            }
+            (false, false) => "Up to it time buys more than on the whole, beyond it less",
         };
         Some(format!("{what} {why}."))
     }
@@ -253,20 +266,21 @@ mod tests {
             let knee = comparison.knee().expect("there is one");
             (knee.point, comparison.advice().expect("there is one"))
         };
-        let (point, words) = knee(&[(1.0, 0.4), (2.0, 0.1), (4.0, 0.04), (8.0, 0.03)]);
+        let (point, words) = knee(&[(1.0, 0.4), (2.0, 0.1), (4.0, 0.04), (64.0, 0.03)]);
         assert_eq!(point, 2);
         assert_eq!(
             words,
-            "At the knee: 2 (a), with an error of 0.040 in 4.00 s. Up to it twice the time more \
-             than halves the error, beyond it no longer."
+            "At the knee: 2 (a), with an error of 0.040 in 4.00 s. Up to it time buys more than on \
+             the whole, beyond it less."
         );
         // In other units it is the same one.
-        let (point, _) = knee(&[(1e-3, 40.0), (2e-3, 10.0), (4e-3, 4.0), (8e-3, 3.0)]);
+        let (point, _) = knee(&[(1e-3, 40.0), (2e-3, 10.0), (4e-3, 4.0), (64e-3, 3.0)]);
         assert_eq!(point, 2);
-        let (point, words) = knee(&[(1.0, 0.4), (2.0, 0.1), (4.0, 0.01)]);
-        assert!(point == 2 && words.contains("more time may be worth it"), "{words}");
-        let (point, words) = knee(&[(1.0, 0.4), (2.0, 0.3), (4.0, 0.2)]);
-        assert!(point == 0 && words.contains("fastest one of these"), "{words}");
+        // Where the way bends to the other side, it is an end.
+        let (point, words) = knee(&[(1.0, 0.4), (2.0, 0.3), (4.0, 0.01)]);
+        assert!(point == 2 && words.contains("most exact one"), "{words}");
+        let (point, words) = knee(&[(1.0, 0.4), (4.0, 0.38), (8.0, 0.2)]);
+        assert!(point == 0 && words.contains("fastest one"), "{words}");
         let (_, words) = knee(&[(1.0, 0.4)]);
         assert!(words.contains("No other"), "{words}");
     }
