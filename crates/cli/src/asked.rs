@@ -106,13 +106,9 @@ impl AskedArgs {
     }
 }
 
-/// What part of the error that is asked for rays may take that are not followed.
-const CUTOFF_PART: f64 = 5.0;
-
 /// The engine for pictures that good, unless its cutoff is given.
 pub(crate) fn whitted(cutoff: Option<Whitted>, sampling: &Sampling) -> Whitted {
-    let fitting = || Whitted::with_cutoff(sampling.error? / CUTOFF_PART).ok();
-    cutoff.or_else(fitting).unwrap_or_default()
+    cutoff.unwrap_or_else(|| Whitted::for_error(sampling.error))
 }
 
 fn parse_error(text: &str) -> Result<f64, String> {
@@ -140,14 +136,11 @@ fn parse_time(text: &str) -> Result<Duration, String> {
         })
 }
 
-/// More samples no pixel gets.
-const MOST_SAMPLES: u32 = 1 << 20;
-
 fn parse_samples(text: &str) -> Result<u32, String> {
     let samples = text.bytes().all(|b| b.is_ascii_digit()).then(|| text.parse().ok()).flatten();
     samples
-        .filter(|samples| (1..=MOST_SAMPLES).contains(samples))
-        .ok_or_else(|| format!("expected a whole number from 1 to {MOST_SAMPLES}"))
+        .filter(|samples| (1..=Sampling::MOST).contains(samples))
+        .ok_or_else(|| format!("expected a whole number from 1 to {}", Sampling::MOST))
 }
 
 fn parse_seed(text: &str) -> Result<u64, String> {

@@ -1,10 +1,10 @@
 //! `lancer export`
 
 use crate::args::{ExportArgs, is_standard};
-use crate::files::{BesideScene, Target, read};
+use crate::files::{Target, read};
+use crate::scene::Wanted;
 use crate::{Failure, report};
 use lancer_export::{Exported, Format, export};
-use lancer_xml::Options;
 use std::path::Path;
 
 pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
@@ -17,13 +17,9 @@ pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
         )));
     }
     let (name, bytes) = read(&args.scene)?;
-    let options = Options { max_pixels: Some(args.max_pixels) };
-    let parsed = lancer_xml::parse_with(&bytes, &options, &BesideScene(&args.scene));
-    let tally = report::show(&name, &parsed, args.quiet);
-    let Some(mut scene) = parsed.scene else {
-        report::say(format_args!("{name}: {tally}"));
-        return Err(Failure::Told);
-    };
+    let wanted =
+        Wanted { path: &args.scene, size: None, max_pixels: args.max_pixels, quiet: args.quiet };
+    let mut scene = wanted.scene(&name, &bytes)?;
     if let Some(exposure) = args.exposure {
         scene.camera.exposure = exposure;
     }

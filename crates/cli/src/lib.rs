@@ -24,6 +24,7 @@ pub mod peers;
 mod preview;
 mod render;
 pub mod report;
+mod scene;
 mod stats;
 
 use args::{Cli, Command};

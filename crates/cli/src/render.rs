@@ -1,20 +1,21 @@
 //! `lancer render`
 
 use crate::args::{RenderArgs, is_standard};
-use crate::files::{BesideScene, Target, read};
+use crate::files::{Target, read};
+use crate::scene::Wanted;
 use crate::stats::{Sampled, Seconds, Stats, Stopwatch, parts};
 use crate::{Failure, asked, interrupt, preview, report};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use lancer_film::Size;
 use lancer_integrator::{
-    Engine, KernelSettings, Progress, RenderError, RenderSettings, Rendered, Sampling, Trouble,
-    Whitted, Why, Width, render,
+    Engine, Forecast, KernelSettings, Progress, RenderError, RenderSettings, Rendered, Sampling,
+    Trouble, Whitted, Why, Width, render,
 };
 use lancer_output::{Format, encode, encode_exr_with_layers, to_rgb8};
-use lancer_scene::{PixelCount, Scene};
-use lancer_xml::Options;
+use lancer_scene::Scene;
 use std::io::IsTerminal;
 use std::num::NonZeroUsize;
+use std::time::Duration;
 
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let outputs = Outputs::new(args)?;
@@ -110,6 +111,9 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     if was_cut_short { Err(Failure::Interrupted) } else { Ok(()) }
 }
 
+/// Of what takes at least so long it is said beforehand how long.
+const LONG: Duration = Duration::from_secs(3);
+
 /// Progress is for a person at a terminal.
 fn talks(args: &RenderArgs) -> bool {
     !args.quiet && std::io::stderr().is_terminal()
@@ -195,34 +199,20 @@ impl Outputs {
     }
 }
 
-/// The scene that the file describes, in the size asked for.
+/// The scene that the file describes, and what the engine says of it.
 fn scene(
     name: &str,
     bytes: &[u8],
     args: &RenderArgs,
     engine: &dyn Engine,
 ) -> Result<Scene, Failure> {
-    // With --size it does not matter how large the file's own picture is.
-    let max_pixels = args.size.is_none().then_some(args.max_pixels);
-    let files = BesideScene(&args.scene);
-    let parsed = lancer_xml::parse_with(bytes, &Options { max_pixels }, &files);
-    let tally = report::show(name, &parsed, args.quiet);
-    let Some(mut scene) = parsed.scene else {
-        report::say(format_args!("{name}: {tally}"));
-        return Err(Failure::Told);
+    let wanted = Wanted {
+        path: &args.scene,
+        size: args.size,
+        max_pixels: args.max_pixels,
+        quiet: args.quiet,
     };
-    if let Some(size) = args.size {
-        if size.pixels() > args.max_pixels {
-            return Err(Failure::Usage(format!(
-                "--size {size} has {} pixels, more than --max-pixels {}",
-                size.pixels(),
-                args.max_pixels
-            )));
-        }
-        let side = |value| PixelCount::new(value).map_err(Failure::work);
-        scene.camera.px_width = side(size.width)?;
-        scene.camera.px_height = side(size.height)?;
-    }
+    let scene = wanted.scene(name, bytes)?;
     if !args.quiet {
         for warning in engine.warnings(&scene) {
             report::say(format_args!("warning: {name}: {warning}"));
@@ -312,6 +302,18 @@ fn draw(
             bar.set_position(done);
         }
     });
+    let foretell = |forecast: Forecast| {
+        if forecast.all >= LONG {
+            let say = || {
+                let seconds = forecast.all.as_secs_f64();
+                report::say(format_args!("this will take about {seconds:.0} s in all"));
+            };
+            match &bar {
+                Some(bar) => bar.suspend(say),
+                None => say(),
+            }
+        }
+    };
     let settings = RenderSettings {
         window: args.crop,
         for_display: outputs.shows_codes(args),
@@ -323,6 +325,7 @@ fn draw(
         sampling,
         kernel: KernelSettings { lanes, ..KernelSettings::default() },
         progress: progress.as_ref().map(|progress| progress as &Progress),
+        forecast: (!args.quiet).then_some(&foretell),
         cancel: Some(interrupt::watch()),
         ..RenderSettings::default()
     };

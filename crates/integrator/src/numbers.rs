@@ -28,6 +28,13 @@ impl Stream {
         Self { index, ..self }
     }
 
+    /// The first sample of a set that has nothing to do with this one, nor with those of other
+    /// indices.
+    #[must_use]
+    pub(crate) const fn apart(self, index: u32) -> Self {
+        Self { set: mixed(self.set ^ mixed(index as u64)), index: 0 }
+    }
+
     /// Two numbers of at least 0 and below 1 for that use; those for 0 are the place in
     /// the pixel.
     #[must_use]

@@ -14,7 +14,7 @@ use std::time::Instant;
 /// The side of the square tiles that a frame is cut into, in pixels.
 pub const TILE_SIDE: u32 = 16;
 
-/// How a picture is to be rendered. None of it changes the value of a pixel.
+/// How a picture is to be rendered. But for `sampling`, none of it changes the value of a pixel.
 #[derive(Clone, Copy, Default)]
 pub struct RenderSettings<'a> {
     /// The part of the frame to keep; all of it by default.
@@ -162,6 +162,7 @@ fn draw(
     // The exposure is fixed before: by one sample in each pixel of the frame, the same
     // whatever the seed is.
     let (frame, window) = (film.frame(), film.window());
+    let mut quality = Quality::new(frame, window)?;
     // A single sample is just that.
     let is_single = sampling.samples == Some(1) && window == frame.window();
     let mut rendered = if (showing.looks_at_frame() && !is_single) || layers.is_some() {
@@ -187,7 +188,6 @@ fn draw(
         forecast: settings.forecast,
     });
     rendered.film.set_stops(sampled.stops);
-    let mut quality = Quality::new(frame, window)?;
     for (tile, values, known) in sampled.tiles() {
         rendered.film.put(tile, &values);
         quality.put(tile, &known);

@@ -97,7 +97,7 @@ impl<'a> Subject<'a> {
     /// # Errors
     /// Where the engine cannot show the scene, or the work was cancelled.
     pub fn reference(&self, error: f64, longest: Duration) -> Result<Reference, RenderError> {
-        let engine = engine(Some(0.1 * error));
+        let engine = Whitted::for_error(Some(0.1 * error));
         let refused = engine.refusals(self.scene);
         if !refused.is_empty() {
             let engine = engine.name().to_owned();
@@ -133,7 +133,7 @@ impl<'a> Subject<'a> {
     /// # Errors
     /// Where that fails or was interrupted.
     pub fn picture(&self, sampling: Sampling) -> Result<Trial, RenderError> {
-        let engine = engine(sampling.error);
+        let engine = Whitted::for_error(sampling.error);
         let settings = RenderSettings {
             exposure: Some(Exposure::Stops(self.stops)),
             sampling: Some(sampling),
@@ -217,11 +217,6 @@ impl<'a> Subject<'a> {
 
 /// None that anybody would ask pictures for.
 const REFERENCE_SEED: u64 = 0x9d2c_5680_ca1f_7b31;
-
-/// The engine for pictures of about that error: what it leaves out of mirrors is a fifth of it.
-fn engine(error: Option<f64>) -> Whitted {
-    error.and_then(|error| Whitted::with_cutoff(0.2 * error).ok()).unwrap_or_default()
-}
 
 /// The settings of a strategy, as they are written and as they are meant, the coarsest first.
 fn settings(strategy: Strategy, finest: f64) -> impl Iterator<Item = (String, Sampling)> {

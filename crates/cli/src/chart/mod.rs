@@ -6,15 +6,15 @@ mod rivals;
 pub use args::ChartArgs;
 
 use crate::args::is_standard;
-use crate::files::{BesideScene, Target, read};
+use crate::files::{Target, read};
+use crate::scene::Wanted;
 use crate::{Failure, interrupt, print_line, report};
 use args::Picture;
 use lancer_film::Size;
 use lancer_integrator::{KernelSettings, RenderError, Width};
 use lancer_judge::{Caption, Comparison, Ladder, Reference, Series, Subject, csv, draw, html};
 use lancer_output::{Format, encode_rgb8};
-use lancer_scene::{Exposure, PixelCount, Scene};
-use lancer_xml::Options;
+use lancer_scene::{Exposure, Scene};
 use std::ffi::OsString;
 use std::io::IsTerminal;
 use std::num::NonZeroUsize;
@@ -35,7 +35,13 @@ pub(crate) fn run(args: &ChartArgs, words: &[OsString]) -> Result<(), Failure> {
     let lanes = Width::from_environment()
         .map_err(|error| Failure::Usage(format!("LANCER_LANES: {error}")))?;
     let (name, bytes) = read(&args.scene)?;
-    let scene = scene(&name, &bytes, args)?;
+    let wanted = Wanted {
+        path: &args.scene,
+        size: args.size,
+        max_pixels: args.max_pixels,
+        quiet: args.quiet,
+    };
+    let scene = wanted.scene(&name, &bytes)?;
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(args.threads.map_or(0, NonZeroUsize::get))
         .build()
@@ -118,30 +124,6 @@ impl Told {
             report::say(format_args!("{what} ..."));
         }
     }
-}
-
-fn scene(name: &str, bytes: &[u8], args: &ChartArgs) -> Result<Scene, Failure> {
-    // With --size it does not matter how large the file's own picture is.
-    let max_pixels = args.size.is_none().then_some(args.max_pixels);
-    let parsed = lancer_xml::parse_with(bytes, &Options { max_pixels }, &BesideScene(&args.scene));
-    let tally = report::show(name, &parsed, args.quiet);
-    let Some(mut scene) = parsed.scene else {
-        report::say(format_args!("{name}: {tally}"));
-        return Err(Failure::Told);
-    };
-    if let Some(size) = args.size {
-        if size.pixels() > args.max_pixels {
-            return Err(Failure::Usage(format!(
-                "--size {size} has {} pixels, more than --max-pixels {}",
-                size.pixels(),
-                args.max_pixels
-            )));
-        }
-        let side = |value| PixelCount::new(value).map_err(Failure::work);
-        scene.camera.px_width = side(size.width)?;
-        scene.camera.px_height = side(size.height)?;
-    }
-    Ok(scene)
 }
 
 fn threads(threads: usize) -> String {

@@ -55,8 +55,12 @@ impl Picture {
         is_longer
     }
 
-    /// The squared error of what may have been missed, by the tile's pixels that were found alone.
+    /// The squared error of what may have been missed, by the tile's pixels that were found alone:
+    /// nothing where what is around them has been looked through.
     fn missed_near(&self, index: usize) -> f64 {
+        if self.tiles[index].is_searched {
+            return 0.0;
+        }
         let around = self.around(index);
         let tile = &self.tiles[index];
         let odd = tile.odd.iter().map(|k| &tile.refined[usize::from(*k)]);
@@ -108,6 +112,7 @@ impl Picture {
             if self.tiles[index].odd.is_empty() {
                 continue;
             }
+            self.tiles[index].is_searched = true;
             let side = TILE_SIDE as isize;
             let around = self.around(index);
             for (x, y) in (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (dx * side, dy * side))) {

@@ -69,6 +69,9 @@ pub struct Sampling {
 impl Sampling {
     /// The error that is usually asked for.
     pub const ERROR: f64 = 0.0005;
+
+    /// More samples no pixel gets.
+    pub const MOST: u32 = 1 << 20;
 }
 
 /// Where samples go.

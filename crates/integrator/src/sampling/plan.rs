@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 
 /// By which power of the number of samples the squared error falls, about: along an edge
 /// through evenly spread samples by 1.5, where they are independent by 1.
-pub(super) const POWER: f64 = 1.35;
+const POWER: f64 = 1.35;
 
 /// Pixels with about the same expected error and the same number of samples.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -23,13 +23,12 @@ impl Class {
 }
 
 /// Pixels by class: of smooth ones, and of refined ones by the number of samples.
-#[derive(Clone)]
 pub(super) struct Tally {
     classes: Vec<Class>,
 }
 
 /// Powers of 2 of the number of samples, and what has none: smooth pixels first.
-pub(super) const LEVELS: usize = super::table::LEVELS + 1;
+const LEVELS: usize = super::table::LEVELS + 1;
 /// Squared errors are told apart by factors of the square root of 2, down to 2^-40.
 const SIZES: usize = 82;
 
@@ -78,8 +77,7 @@ impl Tally {
 /// What to do with the pixels of each class.
 pub(super) struct Plan {
     steps: Vec<Step>,
-    /// The samples that it takes, and those that further rounds would take.
-    pub(super) samples: u64,
+    /// How many samples it takes until the target, further rounds included.
     pub(super) to_come: f64,
 }
 
@@ -156,10 +154,8 @@ pub(super) fn plan(tally: &Tally, target: f64, most_samples: u32) -> Option<Plan
             heap.push(Candidate::new(at, 0, (samples, class.pixels as f64, class.error)));
         }
     }
-    let mut plan =
-        Plan { steps: vec![Step::default(); tally.classes.len()], samples: 0, to_come: 0.0 };
+    let mut plan = Plan { steps: vec![Step::default(); tally.classes.len()], to_come: 0.0 };
     let mut left = tally.error();
-    let mut all = 0.0;
     while left > target
         && let Some(best) = heap.pop()
     {
@@ -169,7 +165,7 @@ pub(super) fn plan(tally: &Tally, target: f64, most_samples: u32) -> Option<Plan
         // Only as many of them as are needed.
         let part = ((left - target) / best.gain).min(1.0);
         left -= part * best.gain;
-        all += part * best.cost;
+        plan.to_come += part * best.cost;
         if best.doublings < MOST_DOUBLINGS {
             let step = &mut plan.steps[best.class];
             if part < 1.0 {
@@ -177,12 +173,10 @@ pub(super) fn plan(tally: &Tally, target: f64, most_samples: u32) -> Option<Plan
             } else {
                 step.doublings += 1;
             }
-            plan.samples += (part * best.cost) as u64;
         }
         heap.push(best.after());
     }
-    plan.to_come = all;
-    (all > 0.0).then_some(plan)
+    (plan.to_come > 0.0).then_some(plan)
 }
 
 impl Plan {
@@ -209,7 +203,7 @@ impl Plan {
         let doublings = doublings + u32::from(is_among);
         match (samples, doublings) {
             (_, 0) => samples,
-            (0, _) => SMOOTH_SAMPLES << (doublings - 1),
+            (0, _) => SMOOTH_SAMPLES,
             _ => samples << doublings,
         }
     }
@@ -231,7 +225,7 @@ mod tests {
         assert_eq!(plan.samples(small, 4, || 0.0), 4);
         // 1.01 to 0.8 by what takes 0.58 of 1.0 away: a part of it.
         assert_eq!((plan.samples(large, 4, || 0.0), plan.samples(large, 4, || 0.99)), (8, 4));
-        assert!(plan.samples > 100 && plan.samples < 200, "{}", plan.samples);
+        assert!((100.0..200.0).contains(&plan.to_come), "{}", plan.to_come);
         assert!(super::plan(&tally, 1.1, 1 << 16).is_none());
         assert!(super::plan(&tally, 0.8, 4).is_none());
     }

@@ -16,35 +16,26 @@ pub(super) struct Spread {
 impl Spread {
     /// The sample with that index, of so many, of the set of a pixel to which the stream belongs.
     fn sample(&self, pixel: (u32, u32), set: Stream, index: u32, of: u32) -> Sample {
-        let [u, v] = match self.strategy {
-            Strategy::Edges | Strategy::Sobol => return Sample::new(pixel, set.at(index)),
-            Strategy::Random => return Sample::new(pixel, self.anywhere(pixel, set, index)),
+        match self.strategy {
+            Strategy::Edges | Strategy::Sobol => Sample::new(pixel, set.at(index)),
+            Strategy::Random => Sample::new(pixel, set.apart(index)),
             Strategy::Stratified => {
-                let [columns, rows] = grid(of);
-                let [u, v] = self.anywhere(pixel, set, index).pair(0);
+                let (stream, [columns, rows]) = (set.apart(index), grid(of));
+                let [u, v] = stream.pair(0);
                 let (column, row) = (f64::from(index % columns), f64::from(index / columns));
-                [(column + u) / f64::from(columns), (row + v) / f64::from(rows)]
+                let across = (column + u) / f64::from(columns);
+                let down = (row + v) / f64::from(rows);
+                let place = [f64::from(pixel.0) + across, f64::from(pixel.1) + down];
+                Sample { pixel, place, stream }
             }
-        };
-        let place = [f64::from(pixel.0) + u, f64::from(pixel.1) + v];
-        Sample { pixel, place, stream: self.anywhere(pixel, set, index) }
-    }
-
-    /// Numbers that have nothing to do with those of other samples: the first ones of a set of
-    /// their own.
-    fn anywhere(&self, pixel: (u32, u32), set: Stream, index: u32) -> Stream {
-        let [u, v] = set.at(index).pair(OWN_SETS);
-        Stream::new(self.seed ^ u.to_bits() ^ v.to_bits().rotate_left(32), pixel, index, 0)
+        }
     }
 
     /// Whether a set goes on where it is doubled; else it is drawn afresh.
-    const fn goes_on(&self) -> bool {
+    pub(super) const fn goes_on(&self) -> bool {
         !matches!(self.strategy, Strategy::Stratified)
     }
 }
-
-/// The dimension that chooses them, which is used for nothing else.
-const OWN_SETS: u32 = u32::MAX;
 
 /// The columns and rows of a grid of so many cells, as near to a square as can be.
 fn grid(cells: u32) -> [u32; 2] {

@@ -21,8 +21,6 @@ use std::time::{Duration, Instant};
 const PIECE: usize = 4;
 /// In how many parts sums are made, the same for any number of threads.
 const PARTS: usize = 8;
-/// More samples no pixel gets.
-const MOST: u32 = 1 << 20;
 /// Where no error is asked for, this is come to first, and from there on always half of it, so
 /// that what there is at any time is about the best for its samples.
 const FIRST_TARGET: f64 = 1.0 / 64.0;
@@ -197,8 +195,9 @@ impl Picture {
                 tile.refine(Pixel::new(index, 0, [0.0; 3], 1.0));
             }
         }
-        let most = samples.unwrap_or(MOST);
-        let mut wanted = if asked.is_none() && samples.is_some() { most } else { 2.min(most) };
+        let most = samples.unwrap_or(Sampling::MOST);
+        // What is drawn afresh each time is drawn once, unless an error is asked for.
+        let mut wanted = if asked.is_none() && !spread.goes_on() { most } else { 2.min(most) };
         loop {
             self.refine_to(job, control, &spread, |_, _| wanted);
             if let Some(progress) = job.progress {
@@ -269,7 +268,7 @@ impl Picture {
                 continue;
             }
             let left = (allowed(target) - self.missed).max(0.0);
-            let Some(plan) = plan(&tally, left, MOST) else {
+            let Some(plan) = plan(&tally, left, Sampling::MOST) else {
                 return (Why::MostSamples, forecast);
             };
             if let Some(progress) = job.progress {

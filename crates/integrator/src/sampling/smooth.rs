@@ -176,23 +176,23 @@ impl Halo {
 
     /// The variance, mean of the components, among the neighbours of a pixel, clipped.
     fn contrast(&self, at: usize) -> f64 {
-        let others = || {
-            AROUND
-                .iter()
-                .map(|step| at.wrapping_add_signed(*step))
-                .filter(|other| self.is_there[*other] != 0)
-        };
-        let count = others().count() as f64;
+        let (mut count, mut sums, mut squares) = (0.0, [0.0; 3], 0.0);
+        for other in AROUND.map(|step| at.wrapping_add_signed(step)) {
+            if self.is_there[other] == 0 {
+                continue;
+            }
+            count += 1.0;
+            for (sum, colour) in sums.iter_mut().zip(&self.colour) {
+                let shown = colour[other].clamp(0.0, 1.0);
+                *sum += shown;
+                squares += shown * shown;
+            }
+        }
         if count < 2.0 {
             return 1.0;
         }
-        let variance = self.colour.each_ref().map(|colour| {
-            let shown = |other: usize| colour[other].clamp(0.0, 1.0);
-            let mean = others().map(shown).sum::<f64>() / count;
-            let square = |other| (shown(other) - mean) * (shown(other) - mean);
-            others().map(square).sum::<f64>() / (count - 1.0)
-        });
-        variance.iter().sum::<f64>() / 3.0
+        let of_means = sums.iter().map(|sum| sum * sum).sum::<f64>() / count;
+        ((squares - of_means) / (3.0 * (count - 1.0))).max(0.0)
     }
 }
 

@@ -28,6 +28,8 @@ pub(super) struct Tile {
     pub(super) is_thin: Set,
     /// Those of the mixed ones whose neighbours are refined for it.
     pub(super) is_followed: Set,
+    /// Whether what is around its odd pixels has been looked through.
+    pub(super) is_searched: bool,
     /// Those that are not refined by their classes, where that is known.
     pub(super) smooth: Option<Vec<(usize, Class)>>,
     /// So many samples its pixels should have at least, if any should.
@@ -92,6 +94,7 @@ impl Tile {
             is_mixed: Set::default(),
             is_thin: Set::default(),
             is_followed: Set::default(),
+            is_searched: false,
             smooth: None,
             least: Vec::new(),
             refined: Vec::new(),

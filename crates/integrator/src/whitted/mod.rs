@@ -62,6 +62,13 @@ impl Whitted {
         Err(found.in_field("cutoff"))
     }
 
+    /// The engine for pictures of which that error is asked ([`Sampling`](crate::Sampling)): a fifth
+    /// of it is left for rays that are not followed. With the usual cutoff where none is.
+    #[must_use]
+    pub fn for_error(error: Option<f64>) -> Self {
+        error.and_then(|error| Self::with_cutoff(error / 5.0).ok()).unwrap_or_default()
+    }
+
     /// The cutoff.
     #[must_use]
     pub const fn cutoff(&self) -> f64 {

@@ -2,6 +2,7 @@
 
 use crate::asked;
 use crate::painted::picture;
+use lancer_integrator::Why;
 
 /// The mean over seeds of the light of a picture of so many pixels along each side.
 fn light(side: u32, error: f64, seeds: u64, see: impl Fn(f64, f64) -> (f64, u64) + Sync) -> f64 {
@@ -44,6 +45,28 @@ fn a1_balls_a_tenth_of_a_pixel_wide_and_one_pixel_apart() {
     // As many pixels as 64 pictures of 16 x 16 in the largest one.
     let share = light(64, 0.002, 4, ball) / (std::f64::consts::PI * 0.0025);
     assert!((share - 1.0).abs() < 0.01, "{share}");
+}
+
+/// What is around a thing that one sample alone has found is looked through; then there is
+/// nothing more to be feared of it, however little error is asked for.
+#[test]
+fn a_thing_found_alone_does_not_keep_a_picture_from_its_end() {
+    let ball = |x: f64, y: f64| {
+        let is_in = (x - 23.4) * (x - 23.4) + (y - 40.6) * (y - 40.6) < 0.09;
+        (f64::from(u8::from(is_in)), u64::from(is_in))
+    };
+    let mut found = 0;
+    for seed in 0..16 {
+        let rendered = picture(64, asked(0.0001, seed), 2, ball);
+        let accuracy = rendered.accuracy.expect("sampled");
+        assert_eq!(accuracy.stopped, Why::Error);
+        if accuracy.samples > 64 * 64 {
+            found += 1;
+            let sum: f32 = rendered.film.pixels().iter().map(|pixel| pixel[0]).sum();
+            assert!((f64::from(sum) / (std::f64::consts::PI * 0.09) - 1.0).abs() < 0.05, "{sum}");
+        }
+    }
+    assert!(found > 0);
 }
 
 /// Every pixel is covered by that part, somewhere: whether some samples happen to agree must not
