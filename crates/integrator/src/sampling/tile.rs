@@ -250,7 +250,7 @@ mod tests {
     }
 
     #[test]
-    fn means_are_exact_for_many_samples_and_variances_of_bright_ones() {
+    fn o3_means_are_exact_for_many_samples_and_variances_of_bright_ones() {
         let mut pixel = Pixel::new(0, 0, [0.0; 3], 0.0);
         for k in 0..1 << 22 {
             pixel.add(k % 2, &seen(0.1), 0);
