@@ -314,14 +314,13 @@ fn draw(
             }
         }
     };
+    let kinds = || args.layers.iter().flat_map(|kinds| &kinds.0);
     let settings = RenderSettings {
         window: args.crop,
         for_display: outputs.shows_codes(args),
         exposure: args.exposure,
-        layers: args
-            .layers
-            .as_ref()
-            .is_some_and(|kinds| kinds.0.iter().any(|k| k.is_of_first_hit())),
+        layers: kinds().any(|kind| kind.is_of_first_hit()),
+        quality: kinds().any(|kind| !kind.is_of_first_hit()),
         sampling,
         kernel: KernelSettings { lanes, ..KernelSettings::default() },
         progress: progress.as_ref().map(|progress| progress as &Progress),

@@ -1,7 +1,7 @@
 //! What is known of how good a film's pixels are.
 
 use crate::grid::Grid;
-use crate::{FilmError, Size, Window};
+use crate::{FilmError, Size, Strip, Window};
 
 /// What is known of a pixel.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -55,6 +55,18 @@ impl Quality {
     #[must_use]
     pub fn pixel(&self, x: u32, y: u32) -> PixelQuality {
         self.grid.get(x, y)
+    }
+
+    /// It in strips of that width and of `ROWS` rows, as those of
+    /// [`Film::strips_mut`](crate::Film::strips_mut).
+    ///
+    /// # Panics
+    /// Where `width` or `ROWS` is 0.
+    pub fn strips_mut<const ROWS: usize>(
+        &mut self,
+        width: u32,
+    ) -> impl Iterator<Item = Strip<'_, PixelQuality, ROWS>> {
+        self.grid.strips_mut(width)
     }
 
     /// Writes `values`, row by row, to the pixels of `tile` (in the frame's

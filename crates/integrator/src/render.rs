@@ -30,6 +30,8 @@ pub struct RenderSettings<'a> {
     /// How many samples each pixel gets; one at its centre if that is not said, and nothing is
     /// found out about its error.
     pub sampling: Option<Sampling>,
+    /// Whether to tell, with samples, what is known of each pixel's error.
+    pub quality: bool,
     /// How rays are followed.
     pub kernel: KernelSettings,
     /// How many threads to start for it; by default those of the rayon pool that it
@@ -60,7 +62,7 @@ pub struct Rendered {
     pub layers: Option<Layers>,
     /// The error of the picture, and why there are no more samples, where [`Sampling`] was asked for.
     pub accuracy: Option<Accuracy>,
-    /// That of its pixels, likewise.
+    /// That of its pixels, where that was asked for, too.
     pub quality: Option<Quality>,
     /// The rays that were followed.
     pub counts: RayCounts,
@@ -162,7 +164,7 @@ fn draw(
     // The exposure is fixed before: by one sample in each pixel of the frame, the same
     // whatever the seed is.
     let (frame, window) = (film.frame(), film.window());
-    let mut quality = Quality::new(frame, window)?;
+    let mut quality = settings.quality.then(|| Quality::new(frame, window)).transpose()?;
     // A single sample is just that.
     let is_single = sampling.samples == Some(1) && window == frame.window();
     let mut rendered = if (showing.looks_at_frame() && !is_single) || layers.is_some() {
@@ -188,17 +190,14 @@ fn draw(
         forecast: settings.forecast,
     });
     rendered.film.set_stops(sampled.stops);
-    for (tile, values, known) in sampled.tiles() {
-        rendered.film.put(tile, &values);
-        quality.put(tile, &known);
-    }
+    sampled.put(&mut rendered.film, quality.as_mut());
     if window == frame.window() {
         let peak = Film::peak(rendered.film.pixels());
         rendered.film.set_frame_peak(peak);
     }
     rendered.counts += sampled.counts;
     rendered.accuracy = Some(sampled.accuracy);
-    rendered.quality = Some(quality);
+    rendered.quality = quality;
     Ok(rendered)
 }
 

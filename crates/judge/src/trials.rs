@@ -137,6 +137,7 @@ impl<'a> Subject<'a> {
         let settings = RenderSettings {
             exposure: Some(Exposure::Stops(self.stops)),
             sampling: Some(sampling),
+            quality: true,
             kernel: self.kernel,
             cancel: self.cancel,
             ..RenderSettings::default()

@@ -42,7 +42,7 @@ const NORMAL: f32 = 1.96;
 impl Tile {
     /// The values of its pixels.
     pub(super) fn values(&self) -> Vec<Rgb> {
-        let mut values = self.colour.clone();
+        let mut values = self.colour[..self.pixels()].to_vec();
         for pixel in &self.refined {
             if pixel.count() > 0 {
                 values[usize::from(pixel.index)] = pixel.value().map(|v| v as f32);
@@ -53,8 +53,8 @@ impl Tile {
 
     /// What is known of them.
     pub(super) fn quality(&self, expected: &Expected, largest: &Expected) -> Vec<PixelQuality> {
-        let first = u32::from(!self.place.is_empty());
-        let smooth = self.error.iter().map(|error| {
+        let first = u32::from(self.is_seen);
+        let smooth = self.error[..self.pixels()].iter().map(|error| {
             let error = error.sqrt();
             PixelQuality { error, interval: NORMAL * error, samples: first }
         });

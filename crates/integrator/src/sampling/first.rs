@@ -34,14 +34,11 @@ impl Tile {
         let samples: Vec<Sample> =
             (0..self.pixels()).map(|k| first(self.pixel(k), seed, place)).collect();
         sampler.see(&samples, &mut seen[..samples.len()], counts);
-        self.place = samples
-            .iter()
-            .map(|sample| {
-                let (x, y) = sample.pixel;
-                let [u, v] = sample.place;
-                [(u - f64::from(x)) as f32, (v - f64::from(y)) as f32]
-            })
-            .collect();
+        for (to, sample) in self.place.iter_mut().zip(&samples) {
+            let ((x, y), [u, v]) = (sample.pixel, sample.place);
+            *to = [(u - f64::from(x)) as f32, (v - f64::from(y)) as f32];
+        }
+        self.is_seen = true;
         for (k, seen) in seen[..samples.len()].iter().enumerate() {
             self.colour[k] = seen.radiance;
             self.signature[k] = seen.signature as u32;

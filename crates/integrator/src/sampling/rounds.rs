@@ -10,8 +10,8 @@ use super::table::{Expected, Table};
 use super::tile::{Pixel, Tile};
 use super::{Sampling, Strategy, Why};
 use crate::numbers::mixed;
-use crate::{Progress, RayCounts, Rgb, Sampler, TILE_SIDE};
-use lancer_film::{LightMeter, PixelQuality, Window, exposure_factor};
+use crate::{Progress, RayCounts, Sampler, TILE_SIDE};
+use lancer_film::{Film, LightMeter, Quality, Window, exposure_factor};
 use lancer_kernel::lanes::Width;
 use rayon::prelude::*;
 use std::sync::atomic::AtomicBool;
@@ -56,14 +56,29 @@ pub(crate) struct Sampled {
 }
 
 impl Sampled {
-    /// Each tile's window, values, and what is known of them.
-    pub(crate) fn tiles(&self) -> Vec<(Window, Vec<Rgb>, Vec<PixelQuality>)> {
-        let Picture { tiles, table, .. } = &self.picture;
-        let (expected, largest) = (table.expected(), table.largest());
-        let of = |tile: &Tile| (tile.window, tile.values(), tile.quality(&expected, &largest));
-        tiles.par_iter().map(of).collect()
+    /// Writes the values, and what is known of them if that is wanted, on all threads.
+    pub(crate) fn put(&self, film: &mut Film, quality: Option<&mut Quality>) {
+        let Picture { tiles, across, table, .. } = &self.picture;
+        let width = film.window().width;
+        let rows: Vec<_> = film.strips_mut::<ROWS>(width).zip(tiles.chunks(*across)).collect();
+        rows.into_par_iter().for_each(|(mut strip, tiles)| {
+            tiles.iter().for_each(|tile| strip.put(tile.window, &tile.values()));
+        });
+        if let Some(quality) = quality {
+            let (expected, largest) = (table.expected(), table.largest());
+            let rows: Vec<_> =
+                quality.strips_mut::<ROWS>(width).zip(tiles.chunks(*across)).collect();
+            rows.into_par_iter().for_each(|(mut strip, tiles)| {
+                for tile in tiles {
+                    strip.put(tile.window, &tile.quality(&expected, &largest));
+                }
+            });
+        }
     }
 }
+
+/// The height of tiles.
+const ROWS: usize = TILE_SIDE as usize;
 
 /// All that is known so far.
 pub(super) struct Picture {
@@ -111,7 +126,9 @@ pub(crate) fn sample(job: &Job<'_>) -> Sampled {
 
 impl Picture {
     fn new(job: &Job<'_>) -> Self {
-        let tiles = job.window.strips(TILE_SIDE, TILE_SIDE).map(Tile::new).collect();
+        // Made by all threads, since memory takes its time to be had.
+        let windows: Vec<_> = job.window.strips(TILE_SIDE, TILE_SIDE).collect();
+        let tiles = windows.into_par_iter().map(Tile::new).collect();
         let stops = job.stops.unwrap_or(0.0);
         Self {
             tiles,
@@ -149,16 +166,12 @@ impl Picture {
     }
 
     /// Looks at the first samples of tiles that were reached.
-    fn look(&self, lanes: Width) -> Vec<Analysis> {
-        let (tiles, across) = (&self.tiles, self.across);
-        let mut found = vec![Analysis::EMPTY; tiles.len()];
-        found.par_iter_mut().enumerate().for_each(|(index, found)| {
-            if !tiles[index].place.is_empty() {
-                let around = Neighbours { tiles, across, index };
-                analyse(&around, self.exposure, lanes, found);
-            }
-        });
-        found
+    fn look(&self, lanes: Width) -> Vec<Option<Analysis>> {
+        let look = |index: usize| {
+            let around = Neighbours { tiles: &self.tiles, across: self.across, index };
+            self.tiles[index].is_seen.then(|| analyse(&around, self.exposure, lanes))
+        };
+        (0..self.tiles.len()).into_par_iter().map(look).collect()
     }
 
     /// One sample at the centre of each pixel.
@@ -166,18 +179,17 @@ impl Picture {
         self.first_samples(job, control, Where::Centre);
         if job.stops.is_none() {
             let mut meter = LightMeter::new(job.window.pixels());
-            self.tiles.iter().for_each(|tile| meter.see(&tile.colour));
+            self.tiles.iter().for_each(|tile| meter.see(&tile.colour[..tile.pixels()]));
             self.stops = meter.stops();
             self.exposure = exposure_factor(self.stops);
         }
         // The samples stay the values, and are not put to where they are already.
         let found = self.look(job.lanes);
-        for (tile, found) in self.tiles.iter_mut().zip(found) {
-            if !tile.place.is_empty() {
-                let pixels = tile.pixels();
-                tile.error.copy_from_slice(&found.error[..pixels]);
+        self.tiles.par_iter_mut().zip(found).for_each(|(tile, found)| {
+            if let Some(found) = found {
+                tile.error = found.error;
             }
-        }
+        });
         Why::Samples
     }
 
@@ -225,11 +237,11 @@ impl Picture {
     ) -> (Why, Option<Forecast>) {
         self.first_samples(job, control, Where::Anywhere);
         let found = self.look(job.lanes);
-        for (tile, found) in self.tiles.iter_mut().zip(found) {
-            if !tile.place.is_empty() {
+        self.tiles.par_iter_mut().zip(found).for_each(|(tile, found)| {
+            if let Some(found) = found {
                 tile.take(found);
             }
-        }
+        });
         self.mark_thin_ones();
         let spread = Spread { strategy: Strategy::Edges, seed: job.sampling.seed };
         let pixels = self.pixels();
@@ -368,7 +380,7 @@ impl Picture {
 impl Tile {
     /// How many pixels have no sample.
     fn unseen(&self) -> u64 {
-        if !self.place.is_empty() {
+        if self.is_seen {
             return 0;
         }
         let seen = self.standing.iter().filter(|standing| standing.count > 0).count();
@@ -377,9 +389,7 @@ impl Tile {
 
     /// Takes in what was found by looking at first samples.
     fn take(&mut self, found: Analysis) {
-        let pixels = self.pixels();
-        self.colour.copy_from_slice(&found.colour[..pixels]);
-        self.error.copy_from_slice(&found.error[..pixels]);
+        (self.colour, self.error) = (found.colour, found.error);
         self.refined.reserve(found.edges.len());
         self.standing.reserve(found.edges.len());
         for mut edge in found.edges {
@@ -396,7 +406,7 @@ impl Tile {
     fn tally(&mut self, expected: &Expected, tally: &mut Tally) {
         if self.smooth.is_none() {
             let mut smooth: Vec<(usize, Class)> = Vec::new();
-            for (index, error) in self.error.iter().enumerate() {
+            for (index, error) in self.error[..self.pixels()].iter().enumerate() {
                 if self.is_refined.has(index) {
                     continue;
                 }

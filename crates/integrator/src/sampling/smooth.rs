@@ -40,7 +40,6 @@ const ALONG: usize = 9;
 const COLOURS: usize = 15;
 
 /// What was found of a tile.
-#[derive(Clone)]
 pub(super) struct Analysis {
     /// The values of smooth pixels; of others as they were.
     pub(super) colour: [Rgb; TILE],
@@ -113,7 +112,7 @@ impl Halo {
             for (x, count) in [(-1, 1), (0, width), (width, 1)] {
                 let Some((tile, k)) = around.find(x, y) else { continue };
                 let tile = &around.tiles[tile];
-                if tile.place.is_empty() {
+                if !tile.is_seen {
                     continue;
                 }
                 for step in 0..count as usize {
@@ -196,19 +195,12 @@ impl Halo {
     }
 }
 
-impl Analysis {
-    /// Of nothing yet.
-    pub(super) const EMPTY: Self =
-        Self { colour: [[0.0; 3]; TILE], error: [0.0; TILE], edges: Vec::new() };
-}
-
 /// Looks at the first samples of a tile.
-pub(super) fn analyse(around: &Neighbours<'_>, exposure: f64, width: Width, to: &mut Analysis) {
+pub(super) fn analyse(around: &Neighbours<'_>, exposure: f64, width: Width) -> Analysis {
     let tile = &around.tiles[around.index];
     let halo = Halo::new(around, exposure);
     let differs = halo.edges();
-    let Analysis { colour, error, edges } = to;
-    colour[..tile.pixels()].copy_from_slice(&tile.colour);
+    let (mut colour, mut error, mut edges) = (tile.colour, [0.0; TILE], Vec::new());
     let mut fits = Fits { values: [[0.0; TILE]; 3], residual: [0.0; TILE] };
     dispatch(width, Fit { halo: &halo, fits: &mut fits });
     for k in 0..tile.pixels() {
@@ -240,6 +232,7 @@ pub(super) fn analyse(around: &Neighbours<'_>, exposure: f64, width: Width, to: 
         pixel.nearness = if is_odd { 0 } else { halo.nearness(at) };
         edges.push(pixel);
     }
+    Analysis { colour, error, edges }
 }
 
 /// What comes of planes through the pixels of a tile and their neighbours, in rows of

@@ -7,17 +7,19 @@ use lancer_film::Window;
 /// How many pixels a tile has at most.
 pub(super) const TILE: usize = (TILE_SIDE * TILE_SIDE) as usize;
 
-/// The pixels of a tile, row by row.
+/// The pixels of a tile, row by row; arrays are longer where it is smaller.
 pub(super) struct Tile {
     pub(super) window: Window,
+    /// Whether its pixels have their first samples.
+    pub(super) is_seen: bool,
     /// What the first sample saw; where a pixel is smooth, the value that follows.
-    pub(super) colour: Vec<Rgb>,
+    pub(super) colour: [Rgb; TILE],
     /// The lower half of what the first sample has met.
-    pub(super) signature: Vec<u32>,
+    pub(super) signature: [u32; TILE],
     /// Where in the pixel the first sample is.
-    pub(super) place: Vec<[f32; 2]>,
+    pub(super) place: [[f32; 2]; TILE],
     /// The expected square of the error of those that are not refined.
-    pub(super) error: Vec<f32>,
+    pub(super) error: [f32; TILE],
     /// The pixels that are refined.
     pub(super) is_refined: Set,
     /// Those in which something else was found than what the first sample met, or the first
@@ -82,14 +84,14 @@ pub(super) struct Half {
 
 impl Tile {
     pub(super) fn new(window: Window) -> Self {
-        let pixels = window.pixels() as usize;
         Self {
             window,
-            colour: vec![[0.0; 3]; pixels],
-            signature: vec![0; pixels],
-            place: Vec::new(),
+            is_seen: false,
+            colour: [[0.0; 3]; TILE],
+            signature: [0; TILE],
+            place: [[0.0; 2]; TILE],
             // Nothing is known.
-            error: vec![1.0; pixels],
+            error: [1.0; TILE],
             is_refined: Set::default(),
             is_mixed: Set::default(),
             is_thin: Set::default(),
@@ -104,7 +106,7 @@ impl Tile {
     }
 
     pub(super) fn pixels(&self) -> usize {
-        self.colour.len()
+        self.window.pixels() as usize
     }
 
     /// Column and row of a pixel in the frame.

@@ -95,7 +95,8 @@ fn draw(
     let camera = Camera::new([0.0; 3], [0.0, 1.0, 0.0], 1.0, [side, side]);
     let scene = Scene::builder().camera(camera).build().expect("valid");
     let stops = Exposure::Stops(Stops::new(0.0).expect("in range"));
-    render(&scene, &Painted(see), &RenderSettings { exposure: Some(stops), ..settings })
+    let settings = RenderSettings { exposure: Some(stops), quality: true, ..settings };
+    render(&scene, &Painted(see), &settings)
 }
 
 /// The part of each pixel that a shape covers which is met by each row in stretches: exactly
