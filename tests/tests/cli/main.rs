@@ -106,10 +106,14 @@ impl Run {
         self
     }
 
-    /// The only line on standard error, about a picture that was rendered.
+    /// The only line on standard error, about a picture that was rendered, but for the forecast
+    /// that a slow machine may have seen reason for.
     #[track_caller]
     fn last_line(&self) -> String {
-        let err = self.err();
+        let mut err = self.err();
+        if err.starts_with("this will take about ") {
+            err.drain(..=err.find('\n').expect("lines end"));
+        }
         assert_eq!(err.lines().count(), 1, "{err}");
         assert!(err.contains(" pixels by ") && err.ends_with(" million rays a second\n"), "{err}");
         err
