@@ -1,5 +1,7 @@
 //! Numbers for sampling: a function of seed, pixel, set, index and dimension.
 
+use std::ops::Range;
+
 /// The numbers of one sample of a pixel.
 ///
 /// A pixel's samples come in *sets* that are independent of one another. Within a set
@@ -39,30 +41,49 @@ impl Stream {
     /// the pixel.
     #[must_use]
     pub fn pair(self, dimension: u32) -> [f64; 2] {
-        let [first, second] = halves(mixed(self.set.wrapping_add(u64::from(dimension))));
+        let scrambling = self.scrambling(dimension);
         // In other dimensions the points come in another order, or else they would be the
         // same in all but the scrambling.
-        let index = match dimension {
-            0 => self.index,
-            _ => scrambled(self.index.reverse_bits(), first ^ second).reverse_bits(),
+        let index = match (dimension, scrambling) {
+            (0, _) => self.index,
+            (_, [first, second]) => {
+                scrambled(self.index.reverse_bits(), first ^ second).reverse_bits()
+            }
         };
-        let across = scrambled(index, first);
-        let down = scrambled(second_of_sobol(index), second);
-        [across, down].map(|bits| f64::from(bits.reverse_bits()) / 4_294_967_296.0)
+        point(index, scrambling)
     }
+
+    /// The places in the pixel of the samples of this set with those indices: the pairs for 0.
+    pub(crate) fn places(self, indices: Range<u32>) -> impl Iterator<Item = [f64; 2]> {
+        let scrambling = self.scrambling(0);
+        indices.map(move |index| point(index, scrambling))
+    }
+
+    /// What is the same for all samples of the set.
+    fn scrambling(self, dimension: u32) -> [u32; 2] {
+        halves(mixed(self.set.wrapping_add(u64::from(dimension))))
+    }
+}
+
+fn point(index: u32, [first, second]: [u32; 2]) -> [f64; 2] {
+    let across = scrambled(index, first);
+    let down = scrambled(second_of_sobol(index), second);
+    [across, down].map(|bits| f64::from(bits.reverse_bits()) / 4_294_967_296.0)
 }
 
 /// The second dimension of Sobol's sequence, lowest bit first; the first one is the
 /// index itself.
-fn second_of_sobol(index: u32) -> u32 {
-    let (mut sum, mut direction, mut rest) = (0, 1_u32, index);
-    while rest != 0 {
-        if rest & 1 == 1 {
-            sum ^= direction;
-        }
-        direction ^= direction << 1;
-        rest >>= 1;
-    }
+///
+/// Its direction numbers are the powers of 1 + x, as polynomials over the integers modulo 2, so it
+/// puts 1 + x for x. Since (1 + x)^n is 1 + x^n for n = 2^k, the upper n coefficients of each 2n
+/// are added to the lower ones.
+const fn second_of_sobol(index: u32) -> u32 {
+    let mut sum = index;
+    sum ^= (sum >> 16) & 0x0000_ffff;
+    sum ^= (sum >> 8) & 0x00ff_00ff;
+    sum ^= (sum >> 4) & 0x0f0f_0f0f;
+    sum ^= (sum >> 2) & 0x3333_3333;
+    sum ^= (sum >> 1) & 0x5555_5555;
     sum
 }
 
@@ -93,8 +114,6 @@ const fn halves(x: u64) -> [u32; 2] {
 mod tests {
     use super::*;
 
-    /// Sobol's second direction numbers by their own rule: each is the last one, and the
-    /// last one shifted down.
     #[test]
     fn it_is_sobols_sequence() {
         // From Joe and Kuo's tables: 0, 1/2, 3/4, 1/4, 5/8, 1/8, 3/8, 7/8 by index.
@@ -103,6 +122,13 @@ mod tests {
             let found = f64::from(second_of_sobol(index).reverse_bits()) / 4_294_967_296.0;
             assert_eq!(found, right, "{index}");
         }
+        // By their own rule: each is the last one, and the last one shifted up.
+        let mut direction = 1_u32;
+        for bit in 0..32 {
+            assert_eq!(second_of_sobol(1 << bit), direction, "{bit}");
+            direction ^= direction << 1;
+        }
+        assert_eq!(second_of_sobol(0b1011), 0b1 ^ 0b11 ^ 0b1111);
     }
 
     /// Of 2^k points there is one in each of 2^k boxes of equal size, of whatever shape.

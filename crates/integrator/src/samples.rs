@@ -21,15 +21,18 @@ impl Sample {
     /// The sample of a pixel with those numbers.
     #[must_use]
     pub fn new(pixel: (u32, u32), stream: Stream) -> Self {
-        let [u, v] = stream.pair(0);
-        Self { pixel, place: [f64::from(pixel.0) + u, f64::from(pixel.1) + v], stream }
+        Self::within(pixel, stream.pair(0), stream)
     }
 
     /// The sample at the pixel's centre.
     #[must_use]
     pub fn at_centre(pixel: (u32, u32), stream: Stream) -> Self {
-        let place = [f64::from(pixel.0) + 0.5, f64::from(pixel.1) + 0.5];
-        Self { pixel, place, stream }
+        Self::within(pixel, [0.5, 0.5], stream)
+    }
+
+    /// The sample at that place within the pixel.
+    pub(crate) fn within(pixel: (u32, u32), [u, v]: [f64; 2], stream: Stream) -> Self {
+        Self { pixel, place: [f64::from(pixel.0) + u, f64::from(pixel.1) + v], stream }
     }
 }
 

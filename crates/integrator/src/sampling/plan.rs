@@ -1,5 +1,6 @@
 //! Which pixels to refine next.
 
+use super::table::exponent;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
@@ -32,6 +33,9 @@ const LEVELS: usize = super::table::LEVELS + 1;
 /// Squared errors are told apart by factors of the square root of 2, down to 2^-40.
 const SIZES: usize = 82;
 
+/// Those bits of a double that are its fraction.
+const FRACTION: u64 = (1 << 52) - 1;
+
 /// How many samples a smooth pixel gets that is refined.
 pub(super) const SMOOTH_SAMPLES: u32 = 8;
 /// By how much its squared error falls then.
@@ -40,10 +44,12 @@ const SMOOTH_FACTOR: f64 = 1.0 / 16.0;
 /// The class of a pixel with so many samples, 0 for smooth ones, by its expected squared error.
 pub(super) fn class(samples: u32, error: f64) -> usize {
     let level = if samples == 0 { 0 } else { samples.ilog2() as usize + 1 };
-    let (fraction, exponent) = libm::frexp(error);
-    let half = i32::from(fraction >= std::f64::consts::FRAC_1_SQRT_2);
-    let size = (2 * (exponent + 39) + half + 2).clamp(0, SIZES as i32 - 1);
-    let size = if error > 0.0 { size as usize } else { 0 };
+    let size = if error > 0.0 {
+        let is_upper = error.to_bits() & FRACTION >= std::f64::consts::SQRT_2.to_bits() & FRACTION;
+        (2 * (exponent(error) + 39) + i32::from(is_upper) + 2).clamp(0, SIZES as i32 - 1) as usize
+    } else {
+        0
+    };
     level.min(LEVELS - 1) * SIZES + size
 }
 

@@ -5,6 +5,7 @@ use super::table::Table;
 use super::tile::{Standing, Tile};
 use crate::numbers::Stream;
 use crate::{MOST_SAMPLES, RayCounts, Sample, Sampler, Seen};
+use std::ops::Range;
 
 /// Where the samples of a set are.
 #[derive(Debug, Clone, Copy)]
@@ -14,19 +15,36 @@ pub(super) struct Spread {
 }
 
 impl Spread {
-    /// The sample with that index, of so many, of the set of a pixel to which the stream belongs.
-    fn sample(&self, pixel: (u32, u32), set: Stream, index: u32, of: u32) -> Sample {
+    /// Has `take` take the samples with those indices, the last of them the last of all, of the
+    /// set of a pixel to which the stream belongs.
+    #[inline]
+    fn samples(
+        &self,
+        pixel: (u32, u32),
+        set: Stream,
+        indices: Range<u32>,
+        mut take: impl FnMut(Sample),
+    ) {
+        let of = indices.end;
         match self.strategy {
-            Strategy::Edges | Strategy::Sobol => Sample::new(pixel, set.at(index)),
-            Strategy::Random => Sample::new(pixel, set.apart(index)),
+            Strategy::Edges | Strategy::Sobol => {
+                for (index, place) in indices.clone().zip(set.places(indices)) {
+                    take(Sample::within(pixel, place, set.at(index)));
+                }
+            }
+            Strategy::Random => {
+                indices.for_each(|index| take(Sample::new(pixel, set.apart(index))));
+            }
             Strategy::Stratified => {
-                let (stream, [columns, rows]) = (set.apart(index), grid(of));
-                let [u, v] = stream.pair(0);
-                let (column, row) = (f64::from(index % columns), f64::from(index / columns));
-                let across = (column + u) / f64::from(columns);
-                let down = (row + v) / f64::from(rows);
-                let place = [f64::from(pixel.0) + across, f64::from(pixel.1) + down];
-                Sample { pixel, place, stream }
+                let [columns, rows] = grid(of);
+                for index in indices {
+                    let stream = set.apart(index);
+                    let [u, v] = stream.pair(0);
+                    let (column, row) = (f64::from(index % columns), f64::from(index / columns));
+                    let across = (column + u) / f64::from(columns);
+                    let down = (row + v) / f64::from(rows);
+                    take(Sample::within(pixel, [across, down], stream));
+                }
             }
         }
     }
@@ -54,22 +72,37 @@ pub(super) struct Found {
     pub(super) table: Table,
 }
 
-/// Samples that wait to be seen together, and whose they are.
+/// Where a sample belongs: the tile, the place of the pixel among its refined ones, and the half.
+type Owner = (usize, usize, usize);
+
+/// Samples that wait to be seen together.
 struct Batch {
     samples: Vec<Sample>,
-    /// The tile, the place of the pixel among its refined ones, and the half.
-    owners: Vec<(usize, usize, usize)>,
+    /// Whose they are, one after the other, and how many each has.
+    owners: Vec<(Owner, usize)>,
 }
 
 impl Batch {
+    fn add(&mut self, sample: Sample, owner: Owner) {
+        self.samples.push(sample);
+        match self.owners.last_mut() {
+            Some((last, count)) if *last == owner => *count += 1,
+            _ => self.owners.push((owner, 1)),
+        }
+    }
+
     fn see(&mut self, tiles: &mut [Tile], sampler: &dyn Sampler, found: &mut Found) {
         let mut seen = [Seen::default(); MOST_SAMPLES];
         let seen = &mut seen[..self.samples.len()];
         sampler.see(&self.samples, seen, &mut found.counts);
-        for (seen, &(tile, pixel, half)) in seen.iter().zip(&self.owners) {
+        let mut rest = &*seen;
+        for &((tile, pixel, half), count) in &self.owners {
             let tile = &mut tiles[tile];
             let pixel = &mut tile.refined[pixel];
-            pixel.add(half, seen, tile.signature[usize::from(pixel.index)]);
+            let first = tile.signature[usize::from(pixel.index)];
+            let (own, others) = rest.split_at(count);
+            pixel.add(half, own, first);
+            rest = others;
         }
         found.samples += self.samples.len() as u64;
         self.samples.clear();
@@ -86,7 +119,7 @@ pub(super) fn refine(
     wanted: impl Fn(&Tile, usize) -> u32,
     found: &mut Found,
 ) {
-    let mut batch = Batch { samples: Vec::new(), owners: Vec::new() };
+    let mut batch = Batch { samples: Vec::with_capacity(MOST_SAMPLES), owners: Vec::new() };
     let mut changed = Vec::new();
     for at in 0..tiles.len() {
         for which in 0..tiles[at].refined.len() {
@@ -104,13 +137,13 @@ pub(super) fn refine(
             let pixel = *pixel;
             for (half, wanted) in [wanted.div_ceil(2), wanted / 2].into_iter().enumerate() {
                 let set = Stream::new(spread.seed, place, u32::from(pixel.set) + half as u32, 0);
-                for index in pixel.halves[half].count..wanted {
-                    batch.samples.push(spread.sample(place, set, index, wanted));
-                    batch.owners.push((at, which, half));
+                let owner = (at, which, half);
+                spread.samples(place, set, pixel.halves[half].count..wanted, |sample| {
+                    batch.add(sample, owner);
                     if batch.samples.len() == MOST_SAMPLES {
                         batch.see(tiles, sampler, found);
                     }
-                }
+                });
             }
         }
     }
@@ -142,12 +175,14 @@ mod tests {
         let spread = Spread { strategy: Strategy::Stratified, seed: 3 };
         for of in [1, 2, 6, 16] {
             let [columns, rows] = grid(of);
-            for index in 0..of {
-                let set = Stream::new(3, (5, 9), 1, 0);
-                let [x, y] = spread.sample((5, 9), set, index, of).place;
+            let mut indices = 0..of;
+            spread.samples((5, 9), Stream::new(3, (5, 9), 1, 0), 0..of, |sample| {
+                let index = indices.next().expect("no more than asked for");
+                let [x, y] = sample.place;
                 let cell = [(x - 5.0) * f64::from(columns), (y - 9.0) * f64::from(rows)];
                 assert_eq!(cell.map(|at| at as u32), [index % columns, index / columns]);
-            }
+            });
+            assert!(indices.is_empty());
         }
     }
 }

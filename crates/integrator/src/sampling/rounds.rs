@@ -397,7 +397,7 @@ impl Tile {
                 // Its first sample had no part in the decision.
                 let signature = self.signature[usize::from(edge.index)];
                 let seen = crate::Seen { radiance: edge.shift, signature: u64::from(signature) };
-                edge.add(0, &seen, signature);
+                edge.add(0, &[seen], signature);
             }
             self.refine(edge);
         }

@@ -58,9 +58,13 @@ pub(super) fn place(half: &Half, pixel: &Pixel, exposure: f64) -> Place {
 
 /// How many times 2^-30 must be doubled, at most 30 times, not to be less.
 fn step(x: f64) -> usize {
-    // The exponent of a double is exact, whatever the machine.
-    let exponent = libm::frexp(x).1;
-    if x > 0.0 { (exponent + STEPS as i32 - 1).clamp(0, STEPS as i32 - 1) as usize } else { 0 }
+    if x > 0.0 { (exponent(x) + STEPS as i32 - 1).clamp(0, STEPS as i32 - 1) as usize } else { 0 }
+}
+
+/// The power of 2 that a positive number is less than, but not half of; of subnormal numbers, some
+/// low one.
+pub(super) fn exponent(x: f64) -> i32 {
+    (x.to_bits() >> 52) as i32 - 1022
 }
 
 impl Place {
@@ -101,9 +105,10 @@ impl Table {
     /// places.
     pub(super) fn take(&mut self, pixel: &Pixel, exposure: f64) -> [u16; 2] {
         let observed = pixel.observed(exposure);
-        let whole = (observed * UNIT) as u128;
+        // At most 1.
+        let whole = u128::from((observed * UNIT) as u64);
         let size = if observed > 0.0 {
-            (libm::frexp(observed).1 + SIZES as i32 - 1).clamp(1, SIZES as i32 - 1) as usize
+            (exponent(observed) + SIZES as i32 - 1).clamp(1, SIZES as i32 - 1) as usize
         } else {
             0
         };

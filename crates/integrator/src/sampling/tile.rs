@@ -3,6 +3,7 @@
 use super::plan::Class;
 use crate::{Rgb, Seen, TILE_SIDE};
 use lancer_film::Window;
+use std::array;
 
 /// How many pixels a tile has at most.
 pub(super) const TILE: usize = (TILE_SIDE * TILE_SIDE) as usize;
@@ -161,13 +162,18 @@ impl Set {
 }
 
 impl Half {
-    fn add(&mut self, seen: Rgb, shift: Rgb) {
-        self.count += 1;
-        for ((sum, seen), shift) in self.sum.iter_mut().zip(seen).zip(shift) {
-            let more = f64::from(seen) - f64::from(shift);
-            *sum += more;
-            self.squares += more * more;
+    fn add(&mut self, seen: &[Seen], shift: Rgb) {
+        let (mut sum, mut squares) = (self.sum, self.squares);
+        let shift = shift.map(f64::from);
+        for seen in seen {
+            let more: [f64; 3] = array::from_fn(|i| f64::from(seen.radiance[i]) - shift[i]);
+            for (sum, more) in sum.iter_mut().zip(more) {
+                *sum += more;
+            }
+            squares += more.iter().map(|more| more * more).sum::<f64>();
         }
+        self.count += seen.len() as u32;
+        (self.sum, self.squares) = (sum, squares);
     }
 
     /// The variance of a sample, mean of the components, of exposed values; 0 where there
@@ -213,14 +219,12 @@ impl Pixel {
         self.halves[0].count + self.halves[1].count
     }
 
-    /// Takes in a sample of one half; `first` is the signature of the first sample.
-    pub(super) fn add(&mut self, half: usize, seen: &Seen, first: u32) {
-        self.halves[half].add(seen.radiance, self.shift);
-        if seen.signature as u32 == first {
-            self.same += 1;
-        } else {
-            self.is_mixed = true;
-        }
+    /// Takes in samples of one half; `first` is the signature of the first sample.
+    pub(super) fn add(&mut self, half: usize, seen: &[Seen], first: u32) {
+        self.halves[half].add(seen, self.shift);
+        let same = seen.iter().filter(|seen| seen.signature as u32 == first).count();
+        self.same += same as u32;
+        self.is_mixed |= same < seen.len();
     }
 
     /// The mean of all samples.
@@ -255,7 +259,7 @@ mod tests {
     fn o3_means_are_exact_for_many_samples_and_variances_of_bright_ones() {
         let mut pixel = Pixel::new(0, 0, [0.0; 3], 0.0);
         for k in 0..1 << 22 {
-            pixel.add(k % 2, &seen(0.1), 0);
+            pixel.add(k % 2, &[seen(0.1)], 0);
         }
         let right = f64::from(0.1_f32);
         assert!((pixel.value()[1] / right - 1.0).abs() < 1e-9);
@@ -263,7 +267,7 @@ mod tests {
         let mut pixel = Pixel::new(0, 0, [1e4; 3], 0.0);
         let step = 1e4_f32.next_up() - 1e4;
         for k in 0..1000 {
-            pixel.add(0, &seen(if k % 2 == 0 { 1e4 } else { 1e4_f32.next_up() }), 0);
+            pixel.add(0, &[seen(if k % 2 == 0 { 1e4 } else { 1e4_f32.next_up() })], 0);
         }
         let right = f64::from(step) * f64::from(step) / 4.0 * (1000.0 / 999.0);
         assert!((pixel.halves[0].variance(1.0) / right - 1.0).abs() < 1e-6);
@@ -272,8 +276,8 @@ mod tests {
     #[test]
     fn half_the_difference_of_halves_tells_the_error_of_both() {
         let mut pixel = Pixel::new(0, 0, [0.25; 3], 0.0);
-        pixel.add(0, &seen(0.25), 0);
-        pixel.add(1, &seen(0.75), 0);
+        pixel.add(0, &[seen(0.25)], 0);
+        pixel.add(1, &[seen(0.75)], 0);
         assert_eq!((pixel.value(), pixel.observed(1.0)), ([0.5; 3], 0.0625));
         // Beyond white there is no difference.
         assert_eq!(pixel.observed(10.0), 0.0);
