@@ -21,9 +21,8 @@ pub struct ReferenceSettings<'a> {
     pub factor: f64,
     /// It is good enough with this error at most.
     pub error: f64,
-    /// Is asked whether it may be made anew with so many samples for each pixel, before it
-    /// is.
-    pub may_grow: &'a (dyn Fn(u32) -> bool + Sync),
+    /// Is asked how many samples for each pixel it may be made anew with, before it is.
+    pub affords: &'a (dyn Fn() -> u32 + Sync),
     /// Another seed gives another draw.
     pub seed: u64,
     /// Where this becomes true there is none.
@@ -68,15 +67,21 @@ pub fn reference(sampler: &dyn Sampler, settings: &ReferenceSettings<'_>) -> Opt
         }
         // A bit more than seems to be needed, so that it is not done all over for nothing.
         let missing = 1.1 * found.error / settings.error;
-        let times = libm::pow(missing, 1.0 / power).clamp(1.2, 8.0);
-        side = libm::ceil(f64::from(side) * times) as u32;
-        if side > MOST || !(settings.may_grow)(2 * side * side) {
+        let times = libm::pow(missing, 1.0 / power).clamp(LEAST_GROWTH, 8.0);
+        let wanted = libm::ceil(f64::from(side) * times) as u32;
+        // As many as may be, if that is less, unless it is hardly worth it.
+        let next = wanted.min(((settings.affords)() / 2).isqrt()).min(MOST);
+        if f64::from(next) < LEAST_GROWTH * f64::from(side) {
             return Some(found);
         }
+        side = next;
         // What stays behind the first hope is more like noise.
         power = 1.0;
     }
 }
+
+/// By less n does not grow.
+const LEAST_GROWTH: f64 = 1.2;
 
 /// n in the end: twice its square is a number of samples.
 const MOST: u32 = 46_340;

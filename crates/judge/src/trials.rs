@@ -109,19 +109,20 @@ impl<'a> Subject<'a> {
             .ok_or_else(|| RenderError::NoSamples { engine: engine.name().to_owned() })?;
         let begun = Instant::now();
         let fewest = std::sync::OnceLock::new();
-        let may_grow = |samples: u32| {
+        let affords = || {
             // A first one tells what a sample takes.
             let each: f64 = *fewest.get_or_init(|| {
                 begun.elapsed().as_secs_f64() / f64::from(ReferenceSettings::FEWEST_SAMPLES)
             });
-            let after = begun.elapsed().as_secs_f64() + each * f64::from(samples);
-            after <= longest.as_secs_f64()
+            let left = longest.saturating_sub(begun.elapsed());
+            // What does not fit is as many as there are.
+            (left.as_secs_f64() / each) as u32
         };
         let settings = ReferenceSettings {
             size: self.size(),
             factor: self.factor(),
             error,
-            may_grow: &may_grow,
+            affords: &affords,
             seed: REFERENCE_SEED,
             cancel: self.cancel,
         };

@@ -30,6 +30,9 @@ const ROUNDINGS: f64 = 8.0;
 /// the origin is so many roundings away from it.
 const AT_ORIGIN: f64 = 16.0;
 
+/// Normals of two faces of a shape differ by more.
+const FLAT: f64 = 1e-6;
+
 /// Half the distance of two neighbouring doubles in [1, 2).
 const ROUNDING: f64 = f64::EPSILON / 2.0;
 
@@ -67,6 +70,26 @@ impl Entry {
             None => 0.0,
         };
         along.max(self.from_origin) <= by + AT_ORIGIN * ROUNDING * self.reach()
+    }
+
+    /// Whether the ray leaves this part of the surface within roundings of an edge, where
+    /// another one begins: which of them is crossed there, and whether ahead or behind, nobody
+    /// knows. That other one is met at no distance, by rays that are flat to it.
+    fn is_left_at_edge(&self, case: &Case, left: Option<Left>) -> bool {
+        left.is_some_and(|left| {
+            let within = 2.0 * left.by * self.shrinking + AT_ORIGIN * ROUNDING * self.line.scale;
+            let origin = self.line.at(Dd::from(0.0));
+            let near = case.subject(self.item).figure.parts_near(origin, within);
+            (left.item, left.part) == (self.item, self.crossing.part)
+                && near.iter().any(|part| *part != left.part)
+        })
+    }
+
+    /// Whether the surface that is met there is turned away from this part of it.
+    fn is_of_another(&self, case: &Case, ray: &Ray, hit: &Hit) -> bool {
+        let surface = case.prepared.expand(ray, hit);
+        let (_, normal) = self.side(case, self.crossing.part, surface.point);
+        (surface.normal - normal / normal.norm()).norm() > FLAT
     }
 
     /// Whether the distance must be right to [`RELATIVE`], whatever the roundings.
@@ -166,7 +189,10 @@ pub(crate) fn judge(
         return None;
     };
     let may_be = |e: &&Entry| {
-        let ahead = e.is_ahead() || is_open(e) || e.is_doubtful() && asked.left.is_none();
+        let ahead = e.is_ahead()
+            || is_open(e)
+            || e.is_doubtful() && asked.left.is_none()
+            || e.is_left_at_edge(case, asked.left) && e.is_of_another(case, ray, &hit);
         e.item == hit.item && ahead && e.is_found_at(case, hit.t)
     };
     let found: Vec<&Entry> = entries.iter().filter(may_be).collect();
@@ -206,7 +232,8 @@ fn all(case: &Case, asked: &Asked, entries: &[Entry], hit: Option<Hit>, tally: &
     // Those at the origin are before it for the one and behind it for the other.
     let is_open = |h: &Hit| {
         let own = |e: &&Entry| e.item == h.item && e.is_found_at(case, h.t);
-        entries.iter().filter(own).any(|e| e.is_at_origin(asked.left))
+        let is_open = |e: &Entry| e.is_at_origin(asked.left) || e.is_left_at_edge(case, asked.left);
+        entries.iter().filter(own).any(is_open)
     };
     let ahead = hits.iter().find(|h| h.t > 0.0);
     if ahead.map(|h| (h.t, h.item)) != hit.map(|h| (h.t, h.item)) && !ahead.is_some_and(is_open) {
@@ -240,7 +267,8 @@ fn all(case: &Case, asked: &Asked, entries: &[Entry], hit: Option<Hit>, tally: &
         let found_ahead = of_item.iter().filter(|h| h.t > 0.0).count();
         let own = || entries.iter().filter(|e| e.item == item);
         let really_ahead = own().filter(|e| e.crossing.is_there && e.is_ahead()).count();
-        let is_clear = own().all(|e| !e.is_at_origin(asked.left));
+        let is_open = |e: &Entry| e.is_at_origin(asked.left) || e.is_left_at_edge(case, asked.left);
+        let is_clear = own().all(|e| !is_open(e));
         if of_item.len() % 2 == 1 || is_clear && (found_ahead + really_ahead) % 2 == 1 {
             let what = format!("closed item {item} is crossed an odd number of times: {of_item:?}");
             tally.complain(case, ray, Wrong::Other, what);

@@ -27,6 +27,11 @@ pub(crate) struct CalibrateArgs {
           value_parser = clap::value_parser!(u32).range(16..=4000))]
     width: u32,
 
+    /// How many seconds a reference may take, about
+    #[arg(long, value_name = "S", default_value_t = 60,
+          value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    longest: u64,
+
     /// Another seed gives another draw of the pictures
     #[arg(long, default_value_t = 0)]
     seed: u64,
@@ -43,9 +48,6 @@ pub(crate) struct CalibrateArgs {
 /// What is asked for.
 const LEVELS: [f64; 4] = [0.004, 0.002, 0.001, 0.0005];
 
-/// A reference is not made anew if that seems to take longer.
-const LONGEST: Duration = Duration::from_secs(40);
-
 /// What a picture's pixels differ by within one, exposed, that is not called smooth: one step of
 /// 8 bits.
 const ROUGH: f32 = 1.0 / 255.0;
@@ -60,22 +62,29 @@ pub(crate) fn run(args: &CalibrateArgs) -> Result<(), Failure> {
     }
     let begun = Instant::now();
     let mut runs = Vec::new();
-    for name in names {
+    for (scenes, name) in (1..).zip(&names) {
         let scene = sized(&scenes::load(name)?, args.width)?;
-        runs.extend(pool.install(|| calibrated(name, &scene, args.seed))?);
+        runs.extend(pool.install(|| calibrated(name, &scene, args))?);
+        // After each, so that nothing is lost where it is ended.
+        if args.write {
+            write(args, &runs, (scenes, names.len()))?;
+        }
     }
-    let mut command = format!(
-        "cargo run --release -p xtask -- calibrate --width {} --seed {}",
-        args.width, args.seed
-    );
+    println!("{}\n{:.0} s", report(&runs, &LEVELS), begun.elapsed().as_secs_f64());
+    Ok(())
+}
+
+/// Puts the tables into the page, and draws the picture in it.
+fn write(args: &CalibrateArgs, runs: &[Run], (scenes, of): (usize, usize)) -> Result<(), Failure> {
+    let mut command =
+        format!("calibrate --width {} --longest {} --seed {}", args.width, args.longest, args.seed);
     command += &args.threads.map(|threads| format!(" --threads {threads}")).unwrap_or_default();
-    let tables = report(&runs, &LEVELS);
-    println!("{tables}\n{:.0} s", begun.elapsed().as_secs_f64());
-    if !args.write {
-        return Ok(());
-    }
+    let command = format!("cargo run --release -p xtask -- {command} --write");
+    let so_far =
+        if scenes < of { format!(" after {scenes} of {of} scenes") } else { String::new() };
     let section = format!(
-        "{tables}\n![Predicted against true error](accuracy/predicted.svg)\n\n`{command} --write`: {}",
+        "{}\n![Predicted against true error](accuracy/predicted.svg)\n\n`{command}`{so_far}: {}",
+        report(runs, &LEVELS),
         machine::description()
     );
     let points = |level: &f64| {
@@ -87,7 +96,7 @@ pub(crate) fn run(args: &CalibrateArgs) -> Result<(), Failure> {
     let caption = Caption {
         title: format!("Predicted and true errors of {} pictures", runs.len()),
         notes: Vec::new(),
-        command: format!("{command} --write"),
+        command,
     };
     let folder = paths::top().join("docs/accuracy");
     fs::create_dir_all(&folder).map_err(fail)?;
@@ -106,12 +115,13 @@ fn sized(scene: &Scene, width: u32) -> Result<Scene, Failure> {
 }
 
 /// A picture for each level, and what it is like.
-fn calibrated(name: &str, scene: &Scene, seed: u64) -> Result<Vec<Run>, Failure> {
+fn calibrated(name: &str, scene: &Scene, args: &CalibrateArgs) -> Result<Vec<Run>, Failure> {
     let subject = Subject::new(scene, None, KernelSettings::default(), None).map_err(fail)?;
     let begun = Instant::now();
     let finest = LEVELS.into_iter().fold(f64::INFINITY, f64::min);
     // As far as that can be had: its own error, which it knows, is taken out of what it finds.
-    let reference = subject.reference(0.2 * finest, LONGEST).map_err(fail)?;
+    let reference =
+        subject.reference(0.1 * finest, Duration::from_secs(args.longest)).map_err(fail)?;
     println!(
         "{name}, {}: {} samples a pixel, off by {:.1e}, in {:.1} s",
         subject.size(),
@@ -120,7 +130,9 @@ fn calibrated(name: &str, scene: &Scene, seed: u64) -> Result<Vec<Run>, Failure>
         begun.elapsed().as_secs_f64()
     );
     let picture = |error| {
-        subject.picture(Sampling { seed, error: Some(error), ..Sampling::default() }).map_err(fail)
+        subject
+            .picture(Sampling { seed: args.seed, error: Some(error), ..Sampling::default() })
+            .map_err(fail)
     };
     // Any picture is as good as that.
     let fewest = picture(1.0)?.accuracy.samples;

@@ -28,11 +28,12 @@ impl Picture {
     /// Pixels beside one in which a second signature was found are refined, too. What was found
     /// alone is counted as many times as it would have been missed. Whether there are any.
     pub(super) fn follow_contours(&mut self) -> bool {
-        let mut beside = Vec::new();
-        for (index, tile) in self.tiles.iter().enumerate() {
+        let beside = |index: usize| {
+            let tile = &self.tiles[index];
             let new = tile.is_mixed.without(&tile.is_followed);
+            let mut beside = Vec::new();
             if new.is_empty() {
-                continue;
+                return beside;
             }
             let around = self.around(index);
             for pixel in tile.refined.iter().filter(|p| new.has(usize::from(p.index))) {
@@ -40,18 +41,23 @@ impl Picture {
                 let all = all.filter(|(other, k)| !self.tiles[*other].is_refined.has(*k));
                 beside.extend(all.map(|(other, k)| (other, k, pixel.contrast)));
             }
-        }
+            beside
+        };
+        let beside: Vec<_> = (0..self.tiles.len()).into_par_iter().map(beside).collect();
         for tile in &mut self.tiles {
             tile.is_followed = tile.is_mixed;
         }
-        let is_longer = !beside.is_empty();
-        for (tile, k, contrast) in beside {
+        let mut is_longer = false;
+        for (tile, k, contrast) in beside.into_iter().flatten() {
+            is_longer = true;
             let tile = &mut self.tiles[tile];
             if !tile.is_refined.has(k) {
                 tile.refine(Pixel::new(k, 2, tile.colour[k], contrast));
             }
         }
-        self.missed = (0..self.tiles.len()).map(|index| self.missed_near(index)).sum();
+        // Added up in order, however many threads have found them.
+        let missed = (0..self.tiles.len()).into_par_iter().map(|index| self.missed_near(index));
+        self.missed = missed.collect::<Vec<f64>>().iter().sum();
         is_longer
     }
 

@@ -41,7 +41,7 @@ fn settings(width: u32, height: u32, error: f64) -> ReferenceSettings<'static> {
         size: Size::new(width, height),
         factor: 1.0,
         error,
-        may_grow: &|samples| samples < 1 << 20,
+        affords: &|| 1 << 20,
         seed: 1,
         cancel: None,
     }
@@ -91,7 +91,7 @@ fn it_has_no_bias() {
     let mut sum = 0.0;
     let seeds = 400;
     for seed in 0..seeds {
-        let settings = ReferenceSettings { seed, may_grow: &|_| false, ..settings(4, 2, 0.0) };
+        let settings = ReferenceSettings { seed, affords: &|| 0, ..settings(4, 2, 0.0) };
         let found = reference(&edge, &settings).expect("it is not cancelled");
         assert_eq!(found.samples, 512);
         sum += found.picture.mean();
@@ -177,14 +177,17 @@ fn what_is_smooth_has_no_spread_and_needs_few_samples() {
     assert_eq!(grey.seen.load(Ordering::Relaxed), 512 * 35);
 }
 
-/// Where no more samples are allowed, that is what is said.
+/// Where no more samples are allowed, there are as many as are, and what comes of them is said.
 #[test]
 fn an_error_that_is_out_of_reach_is_told() {
     let noise = Known::new(|_, [u, _]: [f64; 2]| u);
-    let settings = ReferenceSettings { may_grow: &|samples| samples < 700, ..settings(8, 8, 1e-9) };
-    let found = reference(&noise, &settings).expect("it is not cancelled");
-    assert_eq!(found.samples, 512);
-    assert!(found.error > 1e-5, "{}", found.error);
+    for (affords, samples) in [(511, 512), (600, 512), (1000, 2 * 22 * 22), (1 << 15, 1 << 15)] {
+        let affords = || affords;
+        let settings = ReferenceSettings { affords: &affords, ..settings(8, 8, 1e-9) };
+        let found = reference(&noise, &settings).expect("it is not cancelled");
+        assert_eq!(found.samples, samples);
+        assert!(found.error > settings.error, "{}", found.error);
+    }
 }
 
 #[test]
