@@ -31,7 +31,24 @@ struct Cell {
 
 impl Cell {
     const EMPTY: Self = Self { count: 0, sum: 0, sizes: [0; SIZES] };
+
+    fn add(&mut self, other: &Self) {
+        self.count += other.count;
+        self.sum += other.sum;
+        for (size, other) in self.sizes.iter_mut().zip(other.sizes) {
+            *size += other;
+        }
+    }
 }
+
+/// Up to which step pixels look flat: differences of about three steps of 8 bits.
+const FLAT: usize = 17;
+/// For how many of a flat cell's own pixels all flat ones of as many samples count.
+///
+/// What looks flat seldom is far off: where two samples of a distant checker fall on one colour. In
+/// cells with a pixel or two such a pixel would be judged by itself alone, and believed. Those
+/// that look as flat with other scatters tell how often that is.
+const OF_ALL_FLAT: f64 = 16.0;
 
 const UNIT: f64 = 1_152_921_504_606_846_976.0; // 2^60
 
@@ -68,6 +85,11 @@ pub(super) fn exponent(x: f64) -> i32 {
 }
 
 impl Place {
+    /// As a number for all.
+    const fn number(self) -> u16 {
+        self.0 as u16
+    }
+
     fn samples(self) -> f64 {
         f64::from(1_u32 << (self.0 / SCATTERS))
     }
@@ -85,13 +107,6 @@ impl Place {
         } else {
             size(step % STEPS) / ((n + 1.0) * (n + 1.0))
         }
-    }
-}
-
-impl Place {
-    /// As a number for all.
-    pub(super) const fn number(self) -> u16 {
-        self.0 as u16
     }
 }
 
@@ -128,55 +143,80 @@ impl Table {
         for (row, other) in self.rows.iter_mut().zip(&other.rows) {
             let Some(other) = other else { continue };
             let row = row.get_or_insert_with(|| vec![Cell::EMPTY; SCATTERS]);
-            for (cell, other) in row.iter_mut().zip(other) {
-                cell.count += other.count;
-                cell.sum += other.sum;
-                for (size, other) in cell.sizes.iter_mut().zip(other.sizes) {
-                    *size += other;
-                }
-            }
+            row.iter_mut().zip(other).for_each(|(cell, other)| cell.add(other));
         }
     }
 
-    /// The expected squared error of a pixel with a half at that place.
-    fn expected_at(&self, place: Place) -> f64 {
-        let cell = self.cell(place);
-        (cell.sum as f64 / UNIT + place.guess()) / (cell.count as f64 + 1.0)
+    /// What all flat pixels of a number of samples have been off: of those whose halves have
+    /// some scatter, and of those without.
+    fn flat(&self, level: usize) -> [Cell; 2] {
+        let mut all = [Cell::EMPTY; 2];
+        for (scatter, cell) in self.rows[level].iter().flatten().enumerate() {
+            if scatter % STEPS <= FLAT {
+                all[usize::from(scatter >= STEPS)].add(cell);
+            }
+        }
+        all
+    }
+
+    /// For each place, what its own pixels have been off, and all flat ones if it is flat.
+    fn by_place<T>(&self, tell: impl Fn(Place, &Cell, Option<&Cell>) -> T) -> Vec<T> {
+        let last = self.rows.iter().rposition(Option::is_some);
+        let levels = 0..last.map_or(0, |last| last + 1);
+        let of_level = |level| {
+            let flat = self.flat(level);
+            let tell = &tell;
+            (0..SCATTERS).map(move |scatter| {
+                let place = Place(level * SCATTERS + scatter);
+                let all = &flat[usize::from(scatter >= STEPS)];
+                let is_flat = scatter % STEPS <= FLAT && all.count > 0;
+                tell(place, self.cell(place), is_flat.then_some(all))
+            })
+        };
+        levels.flat_map(of_level).collect()
     }
 
     /// The expected squared errors by the places of halves.
     pub(super) fn expected(&self) -> Expected {
-        Expected((0..self.places()).map(|at| self.expected_at(Place(at))).collect())
-    }
-
-    fn places(&self) -> usize {
-        self.rows.iter().rposition(Option::is_some).map_or(0, |last| (last + 1) * SCATTERS)
+        Expected(self.by_place(expected))
     }
 
     /// Of the squared errors by the places of halves, what 95 of 100 do not exceed.
     pub(super) fn largest(&self) -> Expected {
-        Expected((0..self.places()).map(|at| self.quantile(Place(at))).collect())
+        Expected(self.by_place(largest))
     }
+}
 
-    fn quantile(&self, place: Place) -> f64 {
-        let cell = self.cell(place);
-        let wanted = cell.count as f64 * SHARE;
-        let mut below = 0.0;
-        for (size, &count) in cell.sizes.iter().enumerate() {
-            let next = below + f64::from(count);
-            if next >= wanted && count > 0 {
-                if size == 0 {
-                    break;
-                }
-                // Evenly within a factor of 2.
-                let top = libm::exp2(size as f64 - (SIZES - 1) as f64);
-                return top * (0.5 + 0.5 * (wanted - below) / f64::from(count));
+/// The expected squared error of a pixel with a half at that place.
+fn expected(place: Place, own: &Cell, flat: Option<&Cell>) -> f64 {
+    let (mean, weight) = match flat {
+        Some(flat) => (flat.sum as f64 / UNIT / flat.count as f64, OF_ALL_FLAT),
+        None => (place.guess(), 1.0),
+    };
+    (own.sum as f64 / UNIT + weight * mean) / (own.count as f64 + weight)
+}
+
+fn largest(place: Place, own: &Cell, flat: Option<&Cell>) -> f64 {
+    let of_all =
+        |size: usize| flat.map_or(0.0, |f| OF_ALL_FLAT * f64::from(f.sizes[size]) / f.count as f64);
+    let count = own.count as f64 + if flat.is_some() { OF_ALL_FLAT } else { 0.0 };
+    let wanted = count * SHARE;
+    let mut below = 0.0;
+    for (size, &of_own) in own.sizes.iter().enumerate() {
+        let here = f64::from(of_own) + of_all(size);
+        let next = below + here;
+        if next >= wanted && here > 0.0 {
+            if size == 0 {
+                break;
             }
-            below = next;
+            // Evenly within a factor of 2.
+            let top = libm::exp2(size as f64 - (SIZES - 1) as f64);
+            return top * (0.5 + 0.5 * (wanted - below) / here);
         }
-        // None or hardly any was off: then no less than twice the deviation.
-        4.0 * self.expected_at(place)
+        below = next;
     }
+    // None or hardly any was off: then no less than twice the deviation.
+    4.0 * expected(place, own, flat)
 }
 
 /// Squared errors of pixels by the places of their halves.

@@ -126,6 +126,28 @@ fn x3_a_checker_to_the_horizon_comes_to_its_mean() {
     }
 }
 
+/// Far cells by chance: here and there all neighbours of a pixel saw one colour, and so did both
+/// of its own first samples. A slope makes each such place look flat in another way, so that it
+/// is alone with that look; it is not to be believed for that.
+#[test]
+fn x3_what_looks_flat_by_chance_is_not_believed() {
+    let cell = |x: f64, y: f64| {
+        let [x, y] = [x, y].map(|v| (v * 512.0).floor() as u64);
+        let bits = (x << 32 | y).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        (bits ^ bits >> 29).wrapping_mul(0xbf58_476d_1ce4_e5b9) >> 20
+    };
+    let tint = |x: f64, y: f64| 0.02 * libm::exp2(-0.3 * x) * (y - 32.0) / 32.0;
+    let right = vec![0.425; 64 * 64];
+    for seed in 0..4 {
+        let rendered = picture(64, asked(0.01, seed), 2, |x, y| {
+            let cell = cell(x, y);
+            ((if cell % 2 == 0 { 0.05 } else { 0.8 }) + tint(x, y), cell)
+        });
+        let off = true_error(&rendered, &right);
+        assert!(off < 0.0105, "{seed}: {off}");
+    }
+}
+
 /// Radiance is averaged first, then exposed, then clipped.
 #[test]
 fn a3_a_highlight_is_averaged_before_it_is_clipped() {
