@@ -92,12 +92,13 @@ impl<'a> Subject<'a> {
     }
 
     /// What its pictures are held against, with an error of at most so much, if that can be had
-    /// in about that time. No ray is left out that matters for it.
+    /// in about that time. Rays are left out where all of them together would change it by a fifth
+    /// of that at most.
     ///
     /// # Errors
     /// Where the engine cannot show the scene, or the work was cancelled.
     pub fn reference(&self, error: f64, longest: Duration) -> Result<Reference, RenderError> {
-        let engine = Whitted::for_error(Some(0.1 * error));
+        let engine = Whitted::for_error(Some(error));
         let refused = engine.refusals(self.scene);
         if !refused.is_empty() {
             let engine = engine.name().to_owned();

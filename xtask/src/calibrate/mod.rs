@@ -56,18 +56,19 @@ pub(crate) fn run(args: &CalibrateArgs) -> Result<(), Failure> {
     let threads = args.threads.map_or(0, usize::from);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(fail)?;
     let wanted = |name: &str| args.scene.as_ref().is_none_or(|part| name.contains(part.as_str()));
-    let names: Vec<_> = SCENES.iter().filter(|name| wanted(name)).collect();
-    if names.is_empty() {
-        return Err(fail(format_args!("there are {}", SCENES.join(", "))));
+    let chosen: Vec<_> = SCENES.iter().filter(|(name, _)| wanted(name)).collect();
+    if chosen.is_empty() {
+        let names: Vec<_> = SCENES.iter().map(|(name, _)| *name).collect();
+        return Err(fail(format_args!("there are {}", names.join(", "))));
     }
     let begun = Instant::now();
     let mut runs = Vec::new();
-    for (scenes, name) in (1..).zip(&names) {
-        let scene = sized(&scenes::load(name)?, args.width)?;
+    for (scenes, (name, narrower)) in (1..).zip(&chosen) {
+        let scene = sized(&scenes::load(name)?, args.width / narrower)?;
         runs.extend(pool.install(|| calibrated(name, &scene, args))?);
         // After each, so that nothing is lost where it is ended.
         if args.write {
-            write(args, &runs, (scenes, names.len()))?;
+            write(args, &runs, (scenes, chosen.len()))?;
         }
     }
     println!("{}\n{:.0} s", report(&runs, &LEVELS), begun.elapsed().as_secs_f64());

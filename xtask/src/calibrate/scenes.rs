@@ -6,26 +6,27 @@ use lancer_tests::paths::{self, Beside};
 use lancer_xml::Options;
 
 /// Files in scenes: mirrors in mirrors, glass in water, a checker to the horizon, soft shadows and a
-/// lens, meshes, edges and smooth things.
-pub(super) const SCENES: &[&str] = &[
-    "bench/readme-pareto.xml",
-    "readme.xml",
-    "first.xml",
-    "facing_mirrors.xml",
-    "mirror_corridor.xml",
-    "water_glass.xml",
-    "underwater.xml",
-    "glass.xml",
-    "absorption.xml",
-    "checkers.xml",
-    "all_shapes.xml",
-    "meshes.xml",
-    "instances.xml",
-    "cornell.xml",
-    "spots.xml",
-    "orthographic.xml",
-    "soft_shadow.xml",
-    "depth_of_field.xml",
+/// lens, meshes, edges and smooth things; and by how much their pictures are narrower than is asked
+/// for, where a sample takes some fifty times as long as elsewhere.
+pub(super) const SCENES: &[(&str, u32)] = &[
+    ("bench/readme-pareto.xml", 1),
+    ("readme.xml", 1),
+    ("first.xml", 1),
+    ("facing_mirrors.xml", 1),
+    ("mirror_corridor.xml", 1),
+    ("water_glass.xml", 3),
+    ("underwater.xml", 1),
+    ("glass.xml", 1),
+    ("absorption.xml", 1),
+    ("checkers.xml", 1),
+    ("all_shapes.xml", 1),
+    ("meshes.xml", 1),
+    ("instances.xml", 1),
+    ("cornell.xml", 1),
+    ("spots.xml", 1),
+    ("orthographic.xml", 1),
+    ("soft_shadow.xml", 1),
+    ("depth_of_field.xml", 1),
 ];
 
 /// One of them.
@@ -41,7 +42,7 @@ pub(super) fn load(name: &str) -> Result<Scene, Failure> {
 mod tests {
     #[test]
     fn all_of_them_are_there() {
-        for name in super::SCENES {
+        for (name, _) in super::SCENES {
             super::load(name).unwrap_or_else(|e| panic!("{name}: {e}"));
         }
     }
