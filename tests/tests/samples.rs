@@ -3,7 +3,7 @@
 
 use lancer_film::{Size, Window};
 use lancer_integrator::{
-    Culling, Engine, KernelSettings, MOST_SAMPLES, RayCounts, Sample, Sampler, Seen, Stream,
+    Culling, Engine, KernelSettings, MOST_SAMPLES, Plan, RayCounts, Sample, Sampler, Seen, Stream,
     TILE_SIDE, Whitted, Width,
 };
 use lancer_scene::{PixelCount, Scene};
@@ -72,10 +72,11 @@ fn compare(
 fn check(name: &str, scene: &Scene) {
     let engine = Whitted::new();
     let scalar = KernelSettings { lanes: Width::SCALAR, ..KernelSettings::default() };
-    let reference = engine.prepare(scene, &scalar);
+    let reference = engine.prepare(scene, &Plan::full(&scalar));
     let reference = reference.sampler().expect("whitted sees samples");
     let settings = all_widths();
-    let tracers: Vec<_> = settings.iter().map(|settings| engine.prepare(scene, settings)).collect();
+    let tracers: Vec<_> =
+        settings.iter().map(|settings| engine.prepare(scene, &Plan::full(settings))).collect();
     let frame = Size::new(scene.camera.px_width.get(), scene.camera.px_height.get()).window();
     let mut rng = fastrand::Rng::with_seed(1);
     for window in frame.strips(TILE_SIDE, TILE_SIDE) {
@@ -157,7 +158,7 @@ fn random_scenes() {
 fn any_number_of_samples() {
     let scene = random::scene(3, [90, 70]);
     let engine = Whitted::new();
-    let tracer = engine.prepare(&scene, &KernelSettings::default());
+    let tracer = engine.prepare(&scene, &Plan::default());
     let sampler = tracer.sampler().expect("whitted sees samples");
     let window = Window { x: 3, y: 2, width: 40, height: 40 };
     for count in [0, 2 * MOST_SAMPLES + 5] {

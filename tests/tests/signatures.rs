@@ -2,7 +2,7 @@
 
 use lancer_film::Size;
 use lancer_integrator::{
-    Engine, KernelSettings, RayCounts, Sample, Sampler, Seen, Stream, TILE_SIDE, Whitted,
+    Engine, Plan, RayCounts, Sample, Sampler, Seen, Stream, TILE_SIDE, Whitted,
 };
 use lancer_scene::{PixelCount, Scene};
 use lancer_tests::golden;
@@ -161,7 +161,7 @@ fn signatures_change_where_pictures_jump() {
         scene.camera.px_width = PixelCount::new(WIDTH).expect("positive");
         scene.camera.px_height = PixelCount::new(HEIGHT).expect("positive");
         let engine = Whitted::new();
-        let tracer = engine.prepare(&scene, &KernelSettings::default());
+        let tracer = engine.prepare(&scene, &Plan::default());
         let sampler = tracer.sampler().expect("whitted sees samples");
         let found = Found::of(&Grid::new(sampler), sampler);
         println!("{name}: {found:?}");

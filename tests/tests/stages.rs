@@ -3,7 +3,7 @@
 
 use lancer_film::Window;
 use lancer_integrator::{
-    Culling, Engine, KernelSettings, RayCounts, Rgb, TILE_SIDE, Tracer, Whitted, Width,
+    Culling, Engine, KernelSettings, Plan, RayCounts, Rgb, TILE_SIDE, Tracer, Whitted, Width,
 };
 use lancer_scene::{PixelCount, Scene};
 use lancer_tests::golden;
@@ -34,8 +34,9 @@ fn check(name: &str, scene: &Scene, settings: &[KernelSettings]) {
     let engine = Whitted::new();
     let (width, height) = (scene.camera.px_width.get(), scene.camera.px_height.get());
     let scalar = KernelSettings { lanes: Width::SCALAR, ..KernelSettings::default() };
-    let reference = engine.prepare(scene, &scalar);
-    let tracers: Vec<_> = settings.iter().map(|settings| engine.prepare(scene, settings)).collect();
+    let reference = engine.prepare(scene, &Plan::full(&scalar));
+    let tracers: Vec<_> =
+        settings.iter().map(|settings| engine.prepare(scene, &Plan::full(settings))).collect();
     let frame = lancer_film::Size::new(width, height).window();
     for window in frame.strips(TILE_SIDE, TILE_SIDE) {
         let (expected, counts) = alone(&*reference, window);
@@ -72,7 +73,7 @@ fn the_scenes_that_people_read() {
 fn windows_may_have_any_size() {
     let scene = random::scene(3, [90, 70]);
     let engine = Whitted::new();
-    let tracer = engine.prepare(&scene, &KernelSettings::default());
+    let tracer = engine.prepare(&scene, &Plan::default());
     for (width, height) in [(41, 35), (1, 40), (70, 1), (16, 17), (3, 5)] {
         let window = Window { x: 3, y: 2, width, height };
         let (expected, found) = (alone(&*tracer, window), together(&*tracer, window));

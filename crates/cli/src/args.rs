@@ -80,9 +80,17 @@ pub struct RenderArgs {
     #[arg(long, value_name = "BITS", default_value = "8", value_parser = bits_parser())]
     pub bits: Bits,
 
-    #[arg(long, default_value = "whitted", value_parser = engine_parser(), help = engine_help())]
+    #[arg(long, default_value = AUTO, value_parser = engine_parser(), help = engine_help())]
     #[allow(missing_docs, reason = "the doc comment would replace the computed help")]
     pub engine: EngineName,
+
+    /// Leave nothing out, not even what nobody could see: slower, for comparison
+    #[arg(long)]
+    pub full_model: bool,
+
+    /// Refuse scenes of which the picture is probably not what is meant: what else is a warning
+    #[arg(long, value_name = "WHAT", value_parser = ["lints"])]
+    pub deny: Option<String>,
 
     #[command(flatten)]
     #[allow(missing_docs, reason = "the doc comment would replace the program's own")]
@@ -141,8 +149,12 @@ pub struct CheckArgs {
     pub scenes: Vec<PathBuf>,
 
     /// The engine whose warnings to report
-    #[arg(long, default_value = "whitted", value_parser = engine_parser())]
+    #[arg(long, default_value = AUTO, value_parser = engine_parser())]
     pub engine: EngineName,
+
+    /// Have warnings about pictures that are probably not what is meant count as errors
+    #[arg(long, value_name = "WHAT", value_parser = ["lints"])]
+    pub deny: Option<String>,
 
     /// Say nothing but warnings and errors
     #[arg(short, long)]
@@ -231,14 +243,25 @@ impl fmt::Debug for EngineName {
     }
 }
 
+/// The word for the least engine that shows all of a scene. The others show it as the original
+/// program did, which is another picture whatever is in it: so there is but one, and what it does
+/// not need is left out by its plan.
+pub(crate) const AUTO: &str = "auto";
+
 pub(crate) fn engine_parser() -> impl TypedValueParser<Value = EngineName> {
-    PossibleValuesParser::new(engines().iter().map(|engine| engine.name()))
-        .try_map(|name| engine_by_name(&name).map(EngineName).ok_or("no such engine"))
+    let names = std::iter::once(AUTO).chain(engines().iter().map(|engine| engine.name()));
+    PossibleValuesParser::new(names).try_map(|name| {
+        let engine = if name == AUTO { engines().first().copied() } else { engine_by_name(&name) };
+        engine.map(EngineName).ok_or("no such engine")
+    })
 }
 
 fn engine_help() -> String {
     let engines = engines().iter().map(|e| format!("{}, {}", e.name(), e.summary()));
-    format!("The engine: {}", engines.collect::<Vec<_>>().join("; "))
+    let engines = engines.collect::<Vec<_>>().join("; ");
+    format!(
+        "The engine: auto, the least one that shows all that is in the scene (whitted); {engines}"
+    )
 }
 
 fn format_parser() -> impl TypedValueParser<Value = Format> {

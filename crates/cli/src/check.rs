@@ -1,8 +1,10 @@
 //! `lancer check`
 
 use crate::args::CheckArgs;
+use crate::lints::Looked;
 use crate::report::{self, Tally, count};
 use crate::{Failure, files, print_line};
+use lancer_integrator::RenderSettings;
 use lancer_xml::Options;
 
 pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
@@ -32,6 +34,16 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
             for warning in engine.warnings(scene) {
                 tally.warnings += 1;
                 report::say(format_args!("warning: {name}: {warning}"));
+            }
+            if tally.errors == 0 {
+                let plan = RenderSettings::default().plan(scene, engine);
+                let tracer = engine.prepare(scene, &plan);
+                let looked = Looked { scene, plan: &plan, tracer: &*tracer };
+                let found = looked.tell(&name, &parsed.source, false).warnings;
+                match &args.deny {
+                    Some(_) => tally.errors += found,
+                    None => tally.warnings += found,
+                }
             }
         }
         failed |= tally.errors > 0;

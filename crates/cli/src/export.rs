@@ -19,7 +19,7 @@ pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
     let (name, bytes) = read(&args.scene)?;
     let wanted =
         Wanted { path: &args.scene, size: None, max_pixels: args.max_pixels, quiet: args.quiet };
-    let mut scene = wanted.scene(&name, &bytes)?;
+    let (mut scene, _) = wanted.scene(&name, &bytes)?;
     if let Some(exposure) = args.exposure {
         scene.camera.exposure = exposure;
     }

@@ -1,21 +1,18 @@
 //! `lancer render`
 
 use crate::args::{RenderArgs, is_standard};
+use crate::drawing::Drawing;
 use crate::files::{Target, read};
 use crate::scene::Wanted;
 use crate::stats::{Sampled, Seconds, Stats, Stopwatch, parts};
-use crate::{Failure, asked, interrupt, preview, report};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use crate::{Failure, asked, lints, preview, report};
 use lancer_film::Size;
-use lancer_integrator::{
-    Engine, Forecast, KernelSettings, Progress, RenderError, RenderSettings, Rendered, Sampling,
-    Trouble, Whitted, Why, Width, render,
-};
+use lancer_integrator::{Engine, Rendered, Sampling, Trouble, Whitted, Why, Width};
 use lancer_output::{Format, encode, encode_exr_with_layers, to_rgb8};
 use lancer_scene::Scene;
+use lancer_xml::Source;
 use std::io::IsTerminal;
 use std::num::NonZeroUsize;
-use std::time::Duration;
 
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let outputs = Outputs::new(args)?;
@@ -30,7 +27,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let (name, bytes) = read(&args.scene)?;
     seconds.read = stopwatch.lap();
 
-    let scene = scene(&name, &bytes, args, engine)?;
+    let (scene, source) = scene(&name, &bytes, args, engine)?;
     let frame = Size::new(scene.camera.px_width.get(), scene.camera.px_height.get());
     let kept = args.crop.unwrap_or_else(|| frame.window());
     if let Some((_, format)) = &outputs.picture
@@ -51,9 +48,20 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     seconds.parse = stopwatch.lap();
 
     start_threads(args)?;
-    let rendered = draw(&scene, args, engine, sampling, lanes, &outputs)?;
+    let drawing = Drawing { args, scene: &scene, engine, sampling, lanes, outputs: &outputs };
+    if args.deny.is_some() && drawing.lints(&name, &source) > 0 {
+        return Err(Failure::Work(format!("{name} is refused by --deny lints")));
+    }
+    let rendered = drawing.draw()?;
+    let lint = lints::of_picture(&rendered.film);
     if !args.quiet {
         tell_troubles(&name, &rendered);
+        if let Some(lint) = lint {
+            report::say(format_args!("warning: {name}: {lint}"));
+            if args.deny.is_none() {
+                drawing.lints(&name, &source);
+            }
+        }
     }
     seconds.render = stopwatch.lap();
 
@@ -108,19 +116,17 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     if !args.quiet {
         report::say(format_args!("{}", stats.summary(kept)));
     }
-    if was_cut_short { Err(Failure::Interrupted) } else { Ok(()) }
-}
-
-/// Of what takes at least so long it is said beforehand how long.
-const LONG: Duration = Duration::from_secs(3);
-
-/// Progress is for a person at a terminal.
-fn talks(args: &RenderArgs) -> bool {
-    !args.quiet && std::io::stderr().is_terminal()
+    if was_cut_short {
+        return Err(Failure::Interrupted);
+    }
+    match lint.filter(|_| args.deny.is_some()) {
+        Some(lint) => Err(Failure::Work(format!("{}: {lint}", stats.scene))),
+        None => Ok(()),
+    }
 }
 
 /// Where everything goes, found to be possible before the work begins.
-struct Outputs {
+pub(crate) struct Outputs {
     picture: Option<(Target, Format)>,
     stats: Option<Target>,
 }
@@ -194,7 +200,7 @@ impl Outputs {
     }
 
     /// Whether values are turned into codes for a display.
-    fn shows_codes(&self, args: &RenderArgs) -> bool {
+    pub(crate) fn shows_codes(&self, args: &RenderArgs) -> bool {
         args.preview || self.picture.as_ref().is_some_and(|(_, format)| !format.is_linear())
     }
 }
@@ -205,20 +211,20 @@ fn scene(
     bytes: &[u8],
     args: &RenderArgs,
     engine: &dyn Engine,
-) -> Result<Scene, Failure> {
+) -> Result<(Scene, Source), Failure> {
     let wanted = Wanted {
         path: &args.scene,
         size: args.size,
         max_pixels: args.max_pixels,
         quiet: args.quiet,
     };
-    let scene = wanted.scene(name, bytes)?;
+    let (scene, source) = wanted.scene(name, bytes)?;
     if !args.quiet {
         for warning in engine.warnings(&scene) {
             report::say(format_args!("warning: {name}: {warning}"));
         }
     }
-    Ok(scene)
+    Ok((scene, source))
 }
 
 /// What is asked about samples, of the engine that has them; others take nothing that is about
@@ -244,7 +250,7 @@ fn sampling(args: &RenderArgs) -> Result<Option<Sampling>, Failure> {
     }
 }
 
-const WHITTED: &str = "whitted";
+pub(crate) const WHITTED: &str = "whitted";
 
 /// Says where the picture is wrong.
 fn tell_troubles(name: &str, rendered: &Rendered) {
@@ -285,72 +291,4 @@ fn start_threads(args: &RenderArgs) -> Result<(), Failure> {
         .num_threads(threads)
         .build_global()
         .map_err(|error| Failure::work(format_args!("could not start the threads: {error}")))
-}
-
-fn draw(
-    scene: &Scene,
-    args: &RenderArgs,
-    engine: &dyn Engine,
-    sampling: Option<Sampling>,
-    lanes: Width,
-    outputs: &Outputs,
-) -> Result<Rendered, Failure> {
-    let bar = talks(args).then(progress_bar);
-    let progress = bar.as_ref().map(|bar| {
-        |done, all| {
-            bar.set_length(all);
-            bar.set_position(done);
-        }
-    });
-    let foretell = |forecast: Forecast| {
-        if forecast.all >= LONG {
-            let say = || {
-                let seconds = forecast.all.as_secs_f64();
-                report::say(format_args!("this will take about {seconds:.0} s in all"));
-            };
-            match &bar {
-                Some(bar) => bar.suspend(say),
-                None => say(),
-            }
-        }
-    };
-    let kinds = || args.layers.iter().flat_map(|kinds| &kinds.0);
-    let settings = RenderSettings {
-        window: args.crop,
-        for_display: outputs.shows_codes(args),
-        exposure: args.exposure,
-        layers: kinds().any(|kind| kind.is_of_first_hit()),
-        quality: kinds().any(|kind| !kind.is_of_first_hit()),
-        sampling,
-        kernel: KernelSettings { lanes, ..KernelSettings::default() },
-        progress: progress.as_ref().map(|progress| progress as &Progress),
-        forecast: (!args.quiet).then_some(&foretell),
-        cancel: Some(interrupt::watch()),
-        ..RenderSettings::default()
-    };
-    let result = render(scene, engine, &settings);
-    if let Some(bar) = &bar {
-        bar.finish_and_clear();
-    }
-    let nothing = || {
-        report::say(format_args!("error: interrupted; no picture was written"));
-        Failure::Interrupted
-    };
-    let rendered = result.map_err(|error| match error {
-        RenderError::Interrupted => nothing(),
-        RenderError::Refused { .. } => {
-            Failure::work(format_args!("{error}; use --engine {WHITTED}"))
-        }
-        other => Failure::work(other),
-    })?;
-    match &rendered.accuracy {
-        Some(known) if known.stopped == Why::Interrupted && known.samples == 0 => Err(nothing()),
-        _ => Ok(rendered),
-    }
-}
-
-fn progress_bar() -> ProgressBar {
-    let style = ProgressStyle::with_template("{wide_bar} {percent:>3} % {eta:>4} left");
-    ProgressBar::with_draw_target(Some(1), ProgressDrawTarget::stderr_with_hz(10))
-        .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }

@@ -4,7 +4,7 @@ use crate::files::BesideScene;
 use crate::{Failure, report};
 use lancer_film::Size;
 use lancer_scene::{PixelCount, Scene};
-use lancer_xml::Options;
+use lancer_xml::{Options, Source};
 use std::path::Path;
 
 /// What commands that make pictures say about a scene's file.
@@ -20,8 +20,8 @@ pub(crate) struct Wanted<'a> {
 }
 
 impl Wanted<'_> {
-    /// The scene; what is wrong with it is told under that name.
-    pub(crate) fn scene(&self, name: &str, bytes: &[u8]) -> Result<Scene, Failure> {
+    /// The scene, and its text; what is wrong with it is told under that name.
+    pub(crate) fn scene(&self, name: &str, bytes: &[u8]) -> Result<(Scene, Source), Failure> {
         // With a size it does not matter how large the file's own picture is.
         let max_pixels = self.size.is_none().then_some(self.max_pixels);
         let parsed =
@@ -43,6 +43,6 @@ impl Wanted<'_> {
             scene.camera.px_width = side(size.width)?;
             scene.camera.px_height = side(size.height)?;
         }
-        Ok(scene)
+        Ok((scene, parsed.source))
     }
 }

@@ -3,7 +3,7 @@
 //!     cargo run --release -p lancer-integrator --example depth_engine > depth.pgm
 
 use lancer_film::Display;
-use lancer_integrator::{Engine, KernelSettings, PinholeCamera, RayCounts, RenderSettings};
+use lancer_integrator::{Engine, PinholeCamera, Plan, RayCounts, RenderSettings};
 use lancer_integrator::{Rgb, Tracer, World, render};
 use lancer_scene::{Camera, Colour, Scene, Shape, Surface};
 use std::io::Write;
@@ -29,7 +29,7 @@ impl Engine for Depth {
         Display::Brightest { white: 1.0 }
     }
 
-    fn prepare<'s>(&'s self, scene: &'s Scene, _kernel: &KernelSettings) -> Box<dyn Tracer + 's> {
+    fn prepare<'s>(&'s self, scene: &'s Scene, _plan: &Plan) -> Box<dyn Tracer + 's> {
         let camera = PinholeCamera::new(&scene.camera);
         Box::new(DepthTracer { camera, world: World::new(scene) })
     }

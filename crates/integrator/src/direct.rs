@@ -1,6 +1,5 @@
 use crate::classic::engine::OriginalTracer;
-use crate::{Engine, Tracer};
-use lancer_kernel::KernelSettings;
+use crate::{Engine, Plan, Tracer};
 use lancer_scene::Scene;
 
 /// The original program's non-recursive engine: the lit colour of the nearest
@@ -25,7 +24,7 @@ impl Engine for Direct {
         crate::classic::refusals(scene)
     }
 
-    fn prepare<'s>(&'s self, scene: &'s Scene, kernel: &KernelSettings) -> Box<dyn Tracer + 's> {
-        Box::new(OriginalTracer::new(scene, kernel, false))
+    fn prepare<'s>(&'s self, scene: &'s Scene, plan: &Plan) -> Box<dyn Tracer + 's> {
+        Box::new(OriginalTracer::new(scene, &plan.kernel, false))
     }
 }

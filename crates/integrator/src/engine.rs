@@ -1,6 +1,5 @@
-use crate::{Classic, Direct, RayCounts, Sampler, TILE_SIDE, Whitted};
+use crate::{Classic, Direct, Plan, RayCounts, Sampler, TILE_SIDE, Whitted};
 use lancer_film::{Display, LayerPixel, Window};
-use lancer_kernel::KernelSettings;
 use lancer_scene::Scene;
 
 /// Red, green and blue in the unit of the film's [`Display`].
@@ -38,9 +37,9 @@ pub trait Engine: Sync {
         Vec::new()
     }
 
-    /// Makes ready to render `scene`, which it does not refuse. The settings change
-    /// no pixel.
-    fn prepare<'s>(&'s self, scene: &'s Scene, kernel: &KernelSettings) -> Box<dyn Tracer + 's>;
+    /// Makes ready to render `scene`, which it does not refuse, by a plan for it. Whatever that leaves
+    /// out may be done all the same.
+    fn prepare<'s>(&'s self, scene: &'s Scene, plan: &Plan) -> Box<dyn Tracer + 's>;
 }
 
 /// An engine made ready for one scene. It is shared by all threads.

@@ -1,7 +1,8 @@
 use crate::sampling::{Job as SamplingJob, sample};
-use crate::{Accuracy, Engine, Forecast, RayCounts, Rgb, Sampling, Tracer};
+use crate::{Accuracy, Asked, Engine, Forecast, Plan, RayCounts, Rgb, Sampling, Tracer};
 use lancer_film::{
     Display, Film, FilmError, LayerPixel, Layers, LightMeter, Quality, Size, Strip, Window,
+    exposure_factor,
 };
 use lancer_kernel::KernelSettings;
 use lancer_scene::{Exposure, Scene};
@@ -14,7 +15,8 @@ use std::time::Instant;
 /// The side of the square tiles that a frame is cut into, in pixels.
 pub const TILE_SIDE: u32 = 16;
 
-/// How a picture is to be rendered. But for `sampling`, none of it changes the value of a pixel.
+/// How a picture is to be rendered. But for `sampling`, none of it changes the value of a pixel; where
+/// an error is asked for, a plan may change it by a part of that.
 #[derive(Clone, Copy, Default)]
 pub struct RenderSettings<'a> {
     /// The part of the frame to keep; all of it by default.
@@ -34,6 +36,8 @@ pub struct RenderSettings<'a> {
     pub quality: bool,
     /// How rays are followed.
     pub kernel: KernelSettings,
+    /// Whether nothing is left out that nobody could see ([`Plan`]).
+    pub full_model: bool,
     /// How many threads to start for it; by default those of the rayon pool that it
     /// is called in, one for each core where nobody has made another.
     pub threads: Option<NonZeroUsize>,
@@ -46,6 +50,19 @@ pub struct RenderSettings<'a> {
     /// Once this is true the work stops and [`RenderError::Interrupted`] is
     /// returned; where pixels have several samples, instead the picture as it is then.
     pub cancel: Option<&'a AtomicBool>,
+}
+
+impl RenderSettings<'_> {
+    /// What is done for the scene, and what is left out.
+    #[must_use]
+    pub fn plan(&self, scene: &Scene, engine: &dyn Engine) -> Plan {
+        let factor = match Showing::new(scene, engine, self) {
+            Showing::Exposed(stops) => Some(exposure_factor(stops)),
+            Showing::Brightest | Showing::AutoExposed => None,
+        };
+        let error = self.sampling.and_then(|sampling| sampling.error);
+        Plan::new(scene, &Asked { kernel: self.kernel, error, factor, full_model: self.full_model })
+    }
 }
 
 /// Is told how much is done and how much there is to do. Calls come
@@ -154,7 +171,8 @@ fn draw(
 ) -> Result<Rendered, RenderError> {
     let begun = Instant::now();
     let showing = Showing::new(scene, engine, settings);
-    let tracer = engine.prepare(scene, &settings.kernel);
+    let plan = settings.plan(scene, engine);
+    let tracer = engine.prepare(scene, &plan);
     let Some(sampling) = &settings.sampling else {
         return fill((engine, &*tracer), showing, settings, film, layers);
     };

@@ -5,8 +5,8 @@ use crate::picture::Picture;
 use crate::reference::{Reference, ReferenceSettings, reference};
 use lancer_film::{Quality, Size, exposure_factor};
 use lancer_integrator::{
-    Accuracy, Engine, KernelSettings, RenderError, RenderSettings, Sampling, Strategy, Whitted,
-    Why, render,
+    Accuracy, Engine, KernelSettings, Plan, RenderError, RenderSettings, Sampling, Strategy,
+    Whitted, Why, render,
 };
 use lancer_scene::{Exposure, Scene, Stops};
 use std::sync::atomic::AtomicBool;
@@ -104,7 +104,7 @@ impl<'a> Subject<'a> {
             let engine = engine.name().to_owned();
             return Err(RenderError::Refused { engine, reasons: refused });
         }
-        let tracer = engine.prepare(self.scene, &self.kernel);
+        let tracer = engine.prepare(self.scene, &Plan::full(&self.kernel));
         let sampler = tracer
             .sampler()
             .ok_or_else(|| RenderError::NoSamples { engine: engine.name().to_owned() })?;

@@ -77,6 +77,7 @@
 
 mod checker;
 mod crossing;
+pub mod figure;
 mod hierarchy;
 mod hit;
 mod listed;

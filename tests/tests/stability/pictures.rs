@@ -1,7 +1,7 @@
 //! What the tests of whole pictures share.
 
 use lancer_integrator::{
-    Engine, RayCounts, RenderSettings, Rendered, Troubles, Whitted, engine_by_name, render,
+    Engine, Plan, RayCounts, RenderSettings, Rendered, Troubles, Whitted, engine_by_name, render,
 };
 use lancer_math::{Point, Ray, Vector};
 use lancer_scene::{
@@ -167,7 +167,11 @@ pub(crate) fn rays_of(builder: SceneBuilder, (x, y): (u32, u32)) -> Vec<Ray> {
     let witness = Witness::default();
     let scene = built(builder.shape(Shape::custom(witness.clone(), black())));
     let settings = RenderSettings::default().kernel;
-    let _ = Whitted::new().prepare(&scene, &settings).pixel(x, y, &mut RayCounts::default());
+    let _ = Whitted::new().prepare(&scene, &Plan::full(&settings)).pixel(
+        x,
+        y,
+        &mut RayCounts::default(),
+    );
     let mut rays = witness.rays.lock().expect("no thread has failed").clone();
     // It is asked again where surfaces are crossed.
     rays.dedup();

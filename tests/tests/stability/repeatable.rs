@@ -3,7 +3,7 @@
 use crate::pictures::{bits, built, eye, file, glass, scene, white};
 use lancer_film::Window;
 use lancer_integrator::{
-    Engine, KernelSettings, RayCounts, RenderSettings, Rgb, Whitted, Width, render,
+    Engine, KernelSettings, Plan, RayCounts, RenderSettings, Rgb, Whitted, Width, render,
 };
 use lancer_output::{Bits, Format, encode};
 use lancer_scene::{Camera, Colour, Light, Scene, Shape, Surface};
@@ -73,7 +73,7 @@ fn a4_threads_and_lanes_change_no_byte() {
 fn a4_tiles_of_any_size_have_the_same_bits() {
     let scene = crowd(|_| {});
     let engine = Whitted::new();
-    let tracer = engine.prepare(&scene, &KernelSettings::default());
+    let tracer = engine.prepare(&scene, &Plan::default());
     let frame = lancer_film::Size::new(72, 56).window();
     let in_tiles = |side: u32| {
         let mut pixels: Vec<Rgb> = vec![[0.0; 3]; frame.pixels() as usize];

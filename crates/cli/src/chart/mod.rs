@@ -41,7 +41,7 @@ pub(crate) fn run(args: &ChartArgs, words: &[OsString]) -> Result<(), Failure> {
         max_pixels: args.max_pixels,
         quiet: args.quiet,
     };
-    let scene = wanted.scene(&name, &bytes)?;
+    let (scene, _) = wanted.scene(&name, &bytes)?;
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(args.threads.map_or(0, NonZeroUsize::get))
         .build()

@@ -1,7 +1,7 @@
 use super::lights::Lights;
 use super::tile::{Stage, Tile};
 use crate::engine::in_parts;
-use crate::{Engine, PinholeCamera, RayCounts, Rgb, Tracer, World};
+use crate::{Engine, PinholeCamera, Plan, RayCounts, Rgb, Tracer, World};
 use lancer_film::Window;
 use lancer_kernel::KernelSettings;
 use lancer_kernel::lanes::{Width, dispatch};
@@ -32,8 +32,8 @@ impl Engine for Classic {
         super::refusals(scene)
     }
 
-    fn prepare<'s>(&'s self, scene: &'s Scene, kernel: &KernelSettings) -> Box<dyn Tracer + 's> {
-        Box::new(OriginalTracer::new(scene, kernel, true))
+    fn prepare<'s>(&'s self, scene: &'s Scene, plan: &Plan) -> Box<dyn Tracer + 's> {
+        Box::new(OriginalTracer::new(scene, &plan.kernel, true))
     }
 }
 
@@ -93,7 +93,7 @@ mod tests {
             .shape(Shape::sphere([0.0; 3], 1.0, Surface::new(Colour::RED)))
             .build()
             .expect("valid");
-        let tracer = Classic.prepare(&scene, &KernelSettings::default());
+        let tracer = Classic.prepare(&scene, &Plan::default());
         let mut counts = RayCounts::default();
         let window = Window { x: 3, y: 2, width: 41, height: 35 };
         let mut pixels = vec![[0.0; 3]; 41 * 35];

@@ -4,7 +4,7 @@ use super::media::{Media, medium, transmittance};
 use super::signature::{self, Signing, Spot, Way};
 use super::stops::Stops;
 use super::tracer::{Place, Rgb64, Task, times};
-use crate::RayCounts;
+use crate::{Plan, RayCounts};
 use lancer_kernel::{Prepared, SurfacePoint, Which};
 use lancer_math::{Point, Ray, Vector, sin_cos_degrees, unit};
 use lancer_scene::{Beam, Falloff, Length, Light, Position, Scene, Shadows};
@@ -19,6 +19,8 @@ pub(super) struct Lights {
 /// A light made ready.
 #[derive(Debug)]
 pub(super) struct Source {
+    /// Its number in the scene.
+    number: usize,
     pub(super) brightness: f64,
     pub(super) place: From,
     pub(super) falloff: Falloff,
@@ -145,6 +147,12 @@ impl Source {
         Some(Shining { strength, mark, ray, t_max: 1.0 })
     }
 
+    /// Which of a sample's numbers draw a point of it, for the surface that the ray on that way
+    /// met. The first two are taken.
+    pub(super) fn dimension(&self, way: Way) -> u32 {
+        signature::hash(way.end() ^ signature::hash(self.number as u64)) as u32 | 2
+    }
+
     /// The ball lamp that it is, that way from a point of a surface with a normal to shade
     /// with and a facet's, on the side that is seen; its strength there, and its mark. None where
     /// there is no light.
@@ -180,18 +188,13 @@ impl Source {
     }
 }
 
-/// Which of a sample's numbers draw a point of a light of that number, for the surface that the
-/// ray on that way met. The first two are taken.
-pub(super) fn dimension(way: Way, light: usize) -> u32 {
-    signature::hash(way.end() ^ signature::hash(light as u64)) as u32 | 2
-}
-
 impl Lights {
-    pub(super) fn new(scene: &Scene) -> Self {
-        let source = |(number, light): (u64, &Light)| {
-            let marks = [2 * number, 2 * number + 1].map(signature::mark);
+    pub(super) fn new(scene: &Scene, plan: &Plan) -> Self {
+        let source = |(number, light): (usize, &Light)| {
+            let marks = [2 * number, 2 * number + 1].map(|mark| signature::mark(mark as u64));
             match light {
                 Light::Lamp { point, radius, brightness, falloff } => Source {
+                    number,
                     brightness: brightness.get(),
                     place: From::new(*point, *radius),
                     falloff: *falloff,
@@ -199,6 +202,7 @@ impl Lights {
                     marks,
                 },
                 Light::Spot { point, radius, axis, beam, brightness, falloff } => Source {
+                    number,
                     brightness: brightness.get(),
                     place: From::new(*point, *radius),
                     falloff: *falloff,
@@ -206,6 +210,7 @@ impl Lights {
                     marks,
                 },
                 Light::Sun { direction, brightness } => Source {
+                    number,
                     brightness: brightness.get(),
                     // Never zero in a scene.
                     place: From::Direction(unit(-direction.get()).unwrap_or_else(Vector::z)),
@@ -215,7 +220,8 @@ impl Lights {
                 },
             }
         };
-        let lights = (0..).zip(&scene.lights).map(source).collect();
+        let asked = (0..).zip(&scene.lights).filter(|(number, _)| plan.asks(*number));
+        let lights = asked.map(source).collect();
         Self { lights, shadows: scene.shadows }
     }
 
@@ -229,12 +235,12 @@ impl Lights {
         (task, way): (&Task, Way),
     ) -> Rgb64 {
         let mut sum = [0.0; 3];
-        for (number, light) in self.lights.iter().enumerate() {
+        for light in &self.lights {
             let shining = match &light.place {
                 From::Direction(direction) => light.shine(seen, *direction, None),
                 From::Point(lamp) => light.shine(seen, lamp - seen.point.point, Some(lamp)),
                 From::Ball(centre, radius) => light.shine_as_ball(seen, (centre, *radius), || {
-                    task.stream.pair(dimension(way, number))
+                    task.stream.pair(light.dimension(way))
                 }),
             };
             let Some(Shining { strength, mark, ray, t_max }) = shining else { continue };

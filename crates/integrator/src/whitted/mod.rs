@@ -12,9 +12,9 @@ mod tile;
 mod tracer;
 mod view;
 
-use crate::{Engine, Tracer};
+use crate::{Engine, Plan, Tracer};
 use lancer_film::Display;
-use lancer_kernel::{KernelSettings, LEAST_RADIUS};
+use lancer_kernel::LEAST_RADIUS;
 use lancer_scene::{Geometry, Group, InvalidField, OutOfRange, Placed, Scene, Shape};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -129,8 +129,8 @@ impl Engine for Whitted {
         warnings
     }
 
-    fn prepare<'s>(&'s self, scene: &'s Scene, kernel: &KernelSettings) -> Box<dyn Tracer + 's> {
-        Box::new(tracer::WhittedTracer::new(scene, self.cutoff, kernel))
+    fn prepare<'s>(&'s self, scene: &'s Scene, plan: &Plan) -> Box<dyn Tracer + 's> {
+        Box::new(tracer::WhittedTracer::new(scene, self.cutoff, plan))
     }
 }
 

@@ -5,7 +5,7 @@ use super::signature::{self, MIRRORED, ONWARD, Signed, Signing, Spot, Unsigned, 
 use super::stops::Stop;
 use super::view::View;
 use crate::engine::in_parts;
-use crate::{MOST_SAMPLES, RayCounts, Rgb, Sample, Sampler, Stream, Tracer};
+use crate::{MOST_SAMPLES, Plan, RayCounts, Rgb, Sample, Sampler, Stream, Tracer};
 use lancer_film::{LayerPixel, Window};
 use lancer_kernel::{KernelSettings, Prepared, SurfacePoint};
 use lancer_math::{Ray, Vector};
@@ -126,17 +126,17 @@ struct Sum<'a> {
 }
 
 impl WhittedTracer {
-    pub(super) fn new(scene: &Scene, cutoff: f64, kernel: &KernelSettings) -> Self {
+    pub(super) fn new(scene: &Scene, cutoff: f64, plan: &Plan) -> Self {
         let view = View::new(&scene.camera);
-        let prepared = Prepared::with(scene, kernel);
+        let prepared = Prepared::with(scene, &plan.kernel);
         let around_eye =
             view.eye().map_or_else(Media::default, |eye| Media::new(prepared.solids_at(&eye)));
         Self {
             view,
-            lights: Lights::new(scene),
+            lights: Lights::new(scene, plan),
             background: scene.background.get(),
             cutoff,
-            kernel: *kernel,
+            kernel: plan.kernel,
             prepared,
             around_eye,
         }

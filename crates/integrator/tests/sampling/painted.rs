@@ -2,8 +2,8 @@
 
 use lancer_film::Display;
 use lancer_integrator::{
-    Engine, KernelSettings, RayCounts, RenderError, RenderSettings, Rendered, Rgb, Sample, Sampler,
-    Sampling, Seen, Tracer, render,
+    Engine, Plan, RayCounts, RenderError, RenderSettings, Rendered, Rgb, Sample, Sampler, Sampling,
+    Seen, Tracer, render,
 };
 use lancer_scene::{Camera, Exposure, Scene, Stops};
 use std::num::NonZeroUsize;
@@ -25,7 +25,7 @@ impl<F: Fn(f64, f64) -> (f64, u64) + Sync> Engine for Painted<F> {
         Display::Exposed
     }
 
-    fn prepare<'s>(&'s self, _: &'s Scene, _: &KernelSettings) -> Box<dyn Tracer + 's> {
+    fn prepare<'s>(&'s self, _: &'s Scene, _: &Plan) -> Box<dyn Tracer + 's> {
         Box::new(Painter(&self.0))
     }
 }

@@ -1,7 +1,8 @@
 //! What the tests of this folder share.
 
-use lancer_integrator::{Engine, RayCounts, RenderSettings, Rendered, Troubles, Whitted, render};
-use lancer_kernel::KernelSettings;
+use lancer_integrator::{
+    Engine, Plan, RayCounts, RenderSettings, Rendered, Troubles, Whitted, render,
+};
 use lancer_math::{Point, Ray, Vector};
 use lancer_scene::{
     Camera, Colour, CustomShape, InvalidField, Scene, SceneBuilder, Shape, Spectrum, Surface,
@@ -170,11 +171,7 @@ pub(crate) fn rays(builder: SceneBuilder) -> Vec<Ray> {
     let witness = Witness::default();
     let builder = builder.shape(Shape::custom(witness.clone(), black()));
     let scene = builder.build().expect("valid");
-    let _ = Whitted::new().prepare(&scene, &KernelSettings::default()).pixel(
-        0,
-        0,
-        &mut RayCounts::default(),
-    );
+    let _ = Whitted::new().prepare(&scene, &Plan::default()).pixel(0, 0, &mut RayCounts::default());
     let mut rays = witness.rays.lock().expect("no thread has failed").clone();
     // It is asked again where surfaces are crossed.
     rays.dedup();

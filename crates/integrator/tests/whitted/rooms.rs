@@ -117,7 +117,7 @@ fn where_light_is_missing_in_a_furnace_it_is_said() {
     let beside = Shape::sphere([0.5, 0.0, 0.3], 0.8, glass(1.33));
     let overlap = furnace().shape(ball(0.9, 1.5)).shape(beside).build().expect("valid");
     let engine = Whitted::new();
-    let tracer = engine.prepare(&overlap, &lancer_kernel::KernelSettings::default());
+    let tracer = engine.prepare(&overlap, &lancer_integrator::Plan::default());
     let mut given_up = 0;
     for (x, y) in (0..24).flat_map(|y| (0..24).map(move |x| (x, y))) {
         let mut counts = RayCounts::default();

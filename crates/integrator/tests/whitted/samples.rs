@@ -1,9 +1,8 @@
 //! Means of many samples.
 
 use lancer_integrator::{
-    Engine, MOST_SAMPLES, RayCounts, Sample, Sampler, Seen, Stream, Troubles, Whitted,
+    Engine, MOST_SAMPLES, Plan, RayCounts, Sample, Sampler, Seen, Stream, Troubles, Whitted,
 };
-use lancer_kernel::KernelSettings;
 use lancer_scene::{Scene, SceneBuilder};
 
 /// The mean of grey samples, and what it may be off by: four standard errors, as if the samples
@@ -26,7 +25,7 @@ impl Mean {
 /// What samples of the first pixel see: in sets of 256, all at its centre or anywhere in it.
 pub(crate) fn see(scene: &Scene, count: u32, at_centre: bool, seed: u64) -> Vec<(Sample, Seen)> {
     let engine = Whitted::new();
-    let tracer = engine.prepare(scene, &KernelSettings::default());
+    let tracer = engine.prepare(scene, &Plan::default());
     let sampler: &dyn Sampler = tracer.sampler().expect("it sees samples");
     let samples: Vec<Sample> = (0..count)
         .map(|k| {

@@ -4,7 +4,7 @@ use super::buffers::{Buffers, Hiding};
 use super::places::Places;
 use super::shade::Around;
 use super::{Batch, dot};
-use crate::whitted::lights::{From, Source, dimension};
+use crate::whitted::lights::{From, Source};
 use crate::whitted::media::Media;
 use crate::whitted::signature::{Signing, Spot, Way};
 use lancer_kernel::lanes::{Lanes, MOST, Mask, Real, Vectors, lanes_of};
@@ -145,7 +145,7 @@ impl<P: Places> Batch<'_, P> {
                 (way, dot(&way, &way), Some(lamp))
             }
             From::Ball(centre, radius) => {
-                let numbers = dimension(met_on, index);
+                let numbers = source.dimension(met_on);
                 let ball = (source, index, (centre, *radius));
                 // By value, so that they may stay in registers elsewhere.
                 let to = (*light, *marks);

@@ -1,0 +1,328 @@
+//! What is probably not meant: the usual reasons for pictures that are black, white or empty.
+
+use super::{Facts, Plan, Reason};
+use crate::Tracer;
+use lancer_kernel::figure;
+use lancer_math::{Point, Vector};
+use lancer_scene::{Geometry, Light, Scene, Shape};
+
+/// What a lint is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum About {
+    /// All of it.
+    Scene,
+    /// The camera.
+    Camera,
+    /// The light of that number, from 0.
+    Light(usize),
+    /// The scene's own shape of that number, from 0.
+    Shape(usize),
+}
+
+/// Something that is probably not meant.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Lint {
+    /// Where.
+    pub about: About,
+    /// What, without a full stop.
+    pub message: String,
+    /// What to say at the place.
+    pub label: String,
+    /// What to do about it.
+    pub remedy: String,
+}
+
+impl Lint {
+    fn new(
+        about: About,
+        message: impl Into<String>,
+        label: impl Into<String>,
+        remedy: impl Into<String>,
+    ) -> Self {
+        Self { about, message: message.into(), label: label.into(), remedy: remedy.into() }
+    }
+}
+
+/// What is found without rendering, in the order of the description. `tracer` looks at a
+/// grid of pixels.
+#[must_use]
+pub fn lints(scene: &Scene, facts: &Facts, plan: &Plan, tracer: &dyn Tracer) -> Vec<Lint> {
+    let mut lints = Vec::new();
+    dark(scene, facts, plan, &mut lints);
+    inside(scene, &mut lints);
+    unseen(scene, facts, tracer, &mut lints);
+    enclosed(scene, &mut lints);
+    coincident(scene, facts, &mut lints);
+    lints.sort_by_key(|lint| lint.about);
+    lints
+}
+
+fn dark(scene: &Scene, facts: &Facts, plan: &Plan, lints: &mut Vec<Lint>) {
+    if facts.all_lights() == 0 && facts.glowing == 0 {
+        let background = scene.background.get() != [0.0; 3];
+        let what = if background { "all shapes are black" } else { "the picture is black" };
+        lints.push(Lint::new(
+            About::Scene,
+            format!("there is no light, and nothing glows: {what}"),
+            "no light",
+            "add a <lamp>, a <sun> or a <spot> to <lights>, or an emission to a shape",
+        ));
+    }
+    for dropped in &plan.dropped {
+        let number = dropped.light + 1;
+        let (message, remedy) = match dropped.why {
+            Reason::Behind(plane) => (
+                format!("light {number} lights nothing that is seen"),
+                format!(
+                    "shape {}, a plane, is between it and the camera: move the light to the \
+                     camera's side, or let a rectangle stand for the plane",
+                    plane + 1
+                ),
+            ),
+            Reason::NoLight => (
+                format!("light {number} gives no light"),
+                "make its brightness more than 0, or take it away".to_owned(),
+            ),
+            // That is as it should be.
+            Reason::Dim => continue,
+        };
+        lints.push(Lint::new(About::Light(dropped.light), message, "this one", remedy));
+    }
+}
+
+/// Camera and lamps within opaque shapes.
+fn inside(scene: &Scene, lints: &mut Vec<Lint>) {
+    let around = |point: &Point| {
+        scene
+            .shapes
+            .iter()
+            .position(|shape| is_opaque_solid(shape) && figure::encloses(shape, point))
+    };
+    if let Some(shape) = around(&scene.camera.origin().get()) {
+        let kind = scene.shapes[shape].geometry.kind();
+        lints.push(Lint::new(
+            About::Camera,
+            format!("the camera is inside of shape {}, a {kind}, which is opaque", shape + 1),
+            "it sees the inside alone",
+            "move the camera's origin out of it",
+        ));
+    }
+    for (number, light) in scene.lights.iter().enumerate() {
+        let (Light::Lamp { point, radius, .. } | Light::Spot { point, radius, .. }) = light else {
+            continue;
+        };
+        // Planes are told of by what they hide.
+        let Some(shape) = around(&point.get()) else { continue };
+        let solid = &scene.shapes[shape];
+        if matches!(solid.geometry, Geometry::Plane(_)) {
+            continue;
+        }
+        // A larger ball shines out of it.
+        let is_within = radius.is_none_or(|radius| {
+            let reach = Vector::repeat(radius.get());
+            figure::bounds(solid).is_some_and(|bounds| {
+                bounds.contains(&(point.get() - reach)) && bounds.contains(&(point.get() + reach))
+            })
+        });
+        if is_within {
+            lints.push(Lint::new(
+                About::Light(number),
+                format!(
+                    "light {} is inside of shape {}, a {}, which is opaque: it lights nothing outside",
+                    number + 1,
+                    shape + 1,
+                    solid.geometry.kind()
+                ),
+                "this one",
+                "move the lamp out of it; if the shape is to look like a lamp, give it an emission \
+                 and the lamp a place beside it",
+            ));
+        }
+    }
+}
+
+fn is_opaque_solid(shape: &Shape) -> bool {
+    !shape.surface.is_transparent() && shape.geometry.is_closed()
+}
+
+/// Along a side of the picture so many pixels are looked at.
+const LOOKS: u32 = 48;
+
+/// Nothing in view, by rays through a grid of pixels.
+fn unseen(scene: &Scene, facts: &Facts, tracer: &dyn Tracer, lints: &mut Vec<Lint>) {
+    if facts.shapes == 0 {
+        lints.push(Lint::new(
+            About::Scene,
+            "there is no shape: the picture is the background alone",
+            "no shapes",
+            "add shapes to <shapes>",
+        ));
+        return;
+    }
+    let [width, height] = [scene.camera.px_width.get(), scene.camera.px_height.get()];
+    let steps = |side: u32| {
+        let count = side.min(LOOKS);
+        (0..count).map(move |k| {
+            ((2 * u64::from(k) + 1) * u64::from(side) / (2 * u64::from(count))) as u32
+        })
+    };
+    let places = || steps(height).flat_map(|y| steps(width).map(move |x| (x, y)));
+    // Engines that do not say what is met first are not asked.
+    let is_met = |(x, y)| tracer.first_hit(x, y).is_none_or(|hit| hit.shape != 0);
+    if places().any(is_met) {
+        return;
+    }
+    let rays = places().count();
+    let remedy = match &facts.around {
+        Some(around) => {
+            let [x, y, z] = <[f64; 3]>::from(around.centre().coords);
+            format!(
+                "the shapes' middle is at {x:.4} {y:.4} {z:.4}: let the camera's target be there, \
+                 or widen its view"
+            )
+        }
+        None => "turn the camera to the shapes, or widen its view".to_owned(),
+    };
+    lints.push(Lint::new(
+        About::Camera,
+        format!("nothing is in view: none of {rays} rays spread over the picture meets a shape"),
+        "looks past all shapes",
+        remedy,
+    ));
+}
+
+/// Shapes are compared with one another up to so many.
+const MOST_COMPARED: usize = 1000;
+
+/// Shapes wholly within opaque spheres and boxes.
+fn enclosed(scene: &Scene, lints: &mut Vec<Lint>) {
+    let shapes = &scene.shapes;
+    if shapes.len() > MOST_COMPARED {
+        return;
+    }
+    // Convex, so that what has its corners inside is inside.
+    let convex = |shape: &Shape| {
+        matches!(shape.geometry, Geometry::Sphere(_) | Geometry::Cuboid(_))
+            && is_opaque_solid(shape)
+    };
+    let bounds: Vec<_> = shapes.iter().map(figure::bounds).collect();
+    for (number, own) in bounds.iter().enumerate() {
+        let Some(own) = own else { continue };
+        let around = shapes.iter().enumerate().position(|(other, shape)| {
+            other != number
+                && convex(shape)
+                && own.corners().iter().all(|corner| figure::encloses(shape, corner))
+        });
+        if let Some(around) = around {
+            lints.push(Lint::new(
+                About::Shape(number),
+                format!(
+                    "shape {}, a {}, is hidden: it is wholly inside of shape {}, a {}, which is opaque",
+                    number + 1,
+                    shapes[number].geometry.kind(),
+                    around + 1,
+                    shapes[around].geometry.kind()
+                ),
+                "nobody sees it",
+                "move it, make the other one transparent, or take it away",
+            ));
+        }
+    }
+}
+
+/// A flat face: its side of the plane n p = at.
+struct Face {
+    shape: usize,
+    normal: Vector,
+    at: f64,
+    /// Its extent, where it has an end.
+    bounds: Option<lancer_math::Bounds>,
+}
+
+/// How near two faces are that cannot be told apart, in roundings of their coordinates.
+const TOGETHER: f64 = 24.0 * f64::EPSILON;
+
+/// Faces in one place that show the same side: which of them is seen is as rounding has it.
+fn coincident(scene: &Scene, facts: &Facts, lints: &mut Vec<Lint>) {
+    let mut faces = Vec::new();
+    for (shape, it) in scene.shapes.iter().enumerate().take(MOST_COMPARED) {
+        let bounds = figure::bounds(it);
+        let mut add = |normal: Vector, at: f64, bounds| {
+            faces.push(Face { shape, normal, at, bounds });
+        };
+        match &it.geometry {
+            Geometry::Plane(plane) => {
+                let Some(normal) = lancer_math::unit(plane.normal.get()) else { continue };
+                add(normal, plane.origin.get().coords.dot(&normal), None);
+            }
+            Geometry::Cuboid(cuboid) => {
+                for axis in 0..3 {
+                    let (min, max) = (cuboid.min(), cuboid.max());
+                    for (end, sign) in [(min, -1.0), (max, 1.0)] {
+                        let mut normal = Vector::zeros();
+                        normal[axis] = sign;
+                        let (mut from, mut to) = (min, max);
+                        (from[axis], to[axis]) = (end[axis], end[axis]);
+                        let side = lancer_math::Bounds { min: from, max: to };
+                        add(normal, sign * end[axis], Some(side));
+                    }
+                }
+            }
+            _ => {
+                // Sheets lie in their boxes where those are flat, and are seen from both sides.
+                let Some(bounds) = bounds else { continue };
+                let sides = bounds.sides();
+                let is_sheet = matches!(
+                    it.geometry,
+                    Geometry::Disc(_) | Geometry::Rectangle(_) | Geometry::Triangle(_)
+                );
+                let flat =
+                    (0..3).find(|axis| is_sheet && sides[*axis] <= TOGETHER * bounds.reach());
+                if let Some(axis) = flat {
+                    for sign in [-1.0, 1.0] {
+                        let mut normal = Vector::zeros();
+                        normal[axis] = sign;
+                        add(normal, sign * bounds.centre()[axis], Some(bounds));
+                    }
+                }
+            }
+        }
+    }
+    let near = TOGETHER * facts.reach.max(f64::MIN_POSITIVE);
+    let mut told = Vec::new();
+    for (k, a) in faces.iter().enumerate() {
+        for b in &faces[k + 1..] {
+            let pair = (a.shape, b.shape);
+            let is_together = a.shape != b.shape
+                && (a.at - b.at).abs() <= near
+                && (a.normal - b.normal).amax() <= TOGETHER
+                && overlap(a, b, near)
+                && !told.contains(&pair);
+            if !is_together {
+                continue;
+            }
+            told.push(pair);
+            let [one, other] = [a.shape, b.shape].map(|shape| {
+                format!("shape {}, a {}", shape + 1, scene.shapes[shape].geometry.kind())
+            });
+            lints.push(Lint::new(
+                About::Shape(b.shape),
+                format!("{other}, and {one}, have a face in one place, seen from one side"),
+                "only one of them is seen, as rounding has it",
+                "move one of them a little off, or leave one out",
+            ));
+        }
+    }
+}
+
+/// Whether two faces in one plane have more than an edge in common.
+fn overlap(a: &Face, b: &Face, near: f64) -> bool {
+    let (Some(one), Some(other)) = (&a.bounds, &b.bounds) else { return true };
+    let wide = (0..3).filter(|&axis| {
+        one.max[axis].min(other.max[axis]) - one.min[axis].max(other.min[axis]) > near
+    });
+    let apart = (0..3).any(|axis| {
+        one.max[axis].min(other.max[axis]) - one.min[axis].max(other.min[axis]) < -near
+    });
+    !apart && wide.count() >= 2
+}

@@ -1,0 +1,99 @@
+//! What is done for a scene, and what is left out because nobody could see it.
+//!
+//! [`Facts`] are told from the description alone. [`Plan::new`] is the one place where it is
+//! decided what follows from them; engines are given the plan and do not ask the scene again.
+//! What it leaves out is left out by proof: it changes no bit of the picture, but for dim
+//! lights, which change it by no more than is stated. [`Plan::full`] leaves nothing out.
+
+mod facts;
+mod lights;
+mod lints;
+mod parts;
+
+pub use facts::Facts;
+pub use lints::{About, Lint, lints};
+pub use parts::Part;
+
+use lancer_kernel::{Culling, KernelSettings};
+use lancer_scene::Scene;
+
+/// For what a picture is planned.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Asked {
+    /// How rays are followed.
+    pub kernel: KernelSettings,
+    /// The error that is asked for, in exposed linear units. Without it nothing is left out that
+    /// would change anything.
+    pub error: Option<f64>,
+    /// What radiance is multiplied with to be shown; not known where the exposure depends on the
+    /// picture.
+    pub factor: Option<f64>,
+    /// Whether nothing is to be left out.
+    pub full_model: bool,
+}
+
+/// What is done for a picture.
+#[derive(Debug, Clone, Default)]
+pub struct Plan {
+    /// How rays are followed.
+    pub kernel: KernelSettings,
+    /// The lights that are not asked, in their order.
+    pub dropped: Vec<Dropped>,
+}
+
+/// A light that is not asked.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Dropped {
+    /// Its number among the scene's lights, from 0.
+    pub light: usize,
+    /// Reason.
+    pub why: Reason,
+    /// By how much a pixel may be darker for that, in exposed linear units; 0 where it is proven that
+    /// no pixel changes.
+    pub most: f64,
+}
+
+/// Reason a light is not asked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reason {
+    /// Its brightness is 0.
+    NoLight,
+    /// An opaque plane is between it and all that the eye sees: the scene's own shape of that
+    /// number, from 0.
+    Behind(usize),
+    /// It is too dim, or too far, to matter.
+    Dim,
+}
+
+impl Plan {
+    /// The plan for a scene.
+    #[must_use]
+    pub fn new(scene: &Scene, asked: &Asked) -> Self {
+        if asked.full_model {
+            let culling = Culling::NONE;
+            return Self::full(&KernelSettings { culling, ..asked.kernel });
+        }
+        Self { kernel: asked.kernel, dropped: lights::dropped(scene, asked) }
+    }
+
+    /// Nothing of the scene is left out.
+    #[must_use]
+    pub const fn full(kernel: &KernelSettings) -> Self {
+        Self { kernel: *kernel, dropped: Vec::new() }
+    }
+
+    /// Whether the light of that number is asked.
+    #[must_use]
+    pub fn asks(&self, light: usize) -> bool {
+        self.dropped.iter().all(|dropped| dropped.light != light)
+    }
+
+    /// By how much a pixel may be off for what is left out, at most, in exposed linear units.
+    #[must_use]
+    pub fn most(&self) -> f64 {
+        self.dropped.iter().map(|dropped| dropped.most).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests;
