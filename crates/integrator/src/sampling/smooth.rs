@@ -173,10 +173,12 @@ impl Halo {
         others.all(|other| Some(other) == first)
     }
 
-    /// The variance, mean of the components, among the neighbours of a pixel, clipped.
+    /// The variance, mean of the components, of a pixel and its neighbours, clipped. Without
+    /// itself, a black pixel among white ones would have none.
     fn contrast(&self, at: usize) -> f64 {
         let (mut count, mut sums, mut squares) = (0.0, [0.0; 3], 0.0);
-        for other in AROUND.map(|step| at.wrapping_add_signed(step)) {
+        let around = AROUND.iter().map(|step| at.wrapping_add_signed(*step));
+        for other in around.chain([at]) {
             if self.is_there[other] == 0 {
                 continue;
             }

@@ -63,7 +63,7 @@ pub(super) struct Pixel {
     pub(super) is_mixed: bool,
     /// Whether its first sample alone met what it met, among its neighbours.
     pub(super) is_odd: bool,
-    /// The variance among the first samples of its neighbours, of exposed values.
+    /// The variance among its first sample and those of its neighbours, of exposed values.
     pub(super) contrast: f32,
     /// How near a neighbour's first sample is that has met something else, from 0 to 3.
     pub(super) nearness: u8,

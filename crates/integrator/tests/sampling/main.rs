@@ -126,6 +126,21 @@ fn x3_a_checker_to_the_horizon_comes_to_its_mean() {
     }
 }
 
+/// Here and there a black spot that fills most of a pixel, on things that are so bright that the pixel is
+/// white: where all its first samples are black, its neighbours are white, and do not differ.
+#[test]
+fn black_samples_among_white_neighbours_are_not_believed() {
+    for seed in 0..32 {
+        let rendered = picture(64, asked(0.008, seed), 2, |x, y| {
+            let [column, row] = [x, y].map(|v| v.floor() as u64);
+            let is_spot = column % 16 == 1 && row % 16 == 1 && y % 1.0 < 0.6;
+            (if is_spot { 0.0 } else { 3.0 }, if is_spot { 0 } else { 1 + column })
+        });
+        let off = true_error(&rendered, &vec![1.0; 64 * 64]);
+        assert!(off < 0.012, "{seed}: {off}");
+    }
+}
+
 /// Far cells by chance: here and there all neighbours of a pixel saw one colour, and so did both
 /// of its own first samples. A slope makes each such place look flat in another way, so that it
 /// is alone with that look; it is not to be believed for that.
