@@ -17,6 +17,7 @@ pub mod asked;
 mod chart;
 mod check;
 mod compare;
+mod explain;
 mod export;
 mod files;
 mod interrupt;
@@ -86,6 +87,7 @@ pub fn run(words: &[OsString]) -> u8 {
         Command::Compare(args) => compare::run(args),
         Command::Export(args) => export::run(args),
         Command::Chart(args) => chart::run(args, words),
+        Command::Explain(args) => explain::run(args),
     };
     let (message, code) = match result {
         Ok(()) => return 0,
