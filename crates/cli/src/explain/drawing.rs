@@ -30,7 +30,7 @@ const fn colour(kind: Kind) -> &'static str {
         Kind::Ray(RayKind::Primary) => "#202020",
         Kind::Ray(RayKind::Reflected) => "#c0362c",
         Kind::Ray(RayKind::Transmitted) => "#1f6fb4",
-        Kind::Shadow => "#d8a200",
+        Kind::Shadow => "#c08a00",
     }
 }
 
@@ -75,7 +75,7 @@ fn draw_line(svg: &mut String, line: &Line, view: &View) {
     let ([x1, y1], [x2, y2]) = (view.at(line.from), view.at(line.to));
     let weight = line.size.clamp(0.0, 1.0).sqrt();
     let (width, dash) = match line.kind {
-        Kind::Shadow => (0.8, " stroke-dasharray=\"4 4\""),
+        Kind::Shadow => (0.9, " stroke-dasharray=\"4 4\""),
         Kind::Ray(_) => (0.6 + 2.4 * weight, ""),
     };
     let _ = writeln!(
@@ -83,16 +83,16 @@ fn draw_line(svg: &mut String, line: &Line, view: &View) {
         "<line x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\" stroke=\"{}\" \
          stroke-width=\"{width:.2}\" stroke-opacity=\"{:.2}\" stroke-linecap=\"round\"{dash}/>",
         colour(line.kind),
-        0.2 + 0.8 * weight
+        0.3 + 0.7 * weight
     );
 }
 
 /// Where rays met shapes, with words where there is room; the eye and the lights.
 fn points(svg: &mut String, explained: &Explained, lines: &[Line], view: &View) {
     let rays = &explained.tree.rays;
-    let mut points: Vec<(At, &str, String)> = Vec::new();
+    let mut points: Vec<(At, &str, String, bool)> = Vec::new();
     if let Some(eye) = rays.first() {
-        points.push((view.at(eye.origin), "#202020", "eye".to_owned()));
+        points.push((view.at(eye.origin), "#202020", "eye".to_owned(), false));
     }
     let mut lights: Vec<usize> = Vec::new();
     for line in lines {
@@ -100,7 +100,7 @@ fn points(svg: &mut String, explained: &Explained, lines: &[Line], view: &View) 
             && !lights.contains(&light)
         {
             lights.push(light);
-            points.push((view.at(line.to), "#d8a200", explained.light(light)));
+            points.push((view.at(line.to), "#c08a00", explained.light(light), false));
         }
     }
     let mut order: Vec<_> = rays.iter().filter(|ray| !ray.surfaces.is_empty()).collect();
@@ -111,18 +111,20 @@ fn points(svg: &mut String, explained: &Explained, lines: &[Line], view: &View) 
                 view.at(surface.point),
                 colour(Kind::Ray(ray.kind)),
                 name(&surface.shape),
+                true,
             ));
         }
     }
     let mut taken: Vec<[f64; 4]> = Vec::new();
-    for ([x, y], fill, words) in &points {
+    for ([x, y], fill, words, is_met) in &points {
         if !(x.is_finite() && y.is_finite()) {
             continue;
         }
         let _ = writeln!(svg, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3.5\" fill=\"{fill}\"/>");
-        let [left, top] = [x + 7.0, y - LINE];
-        let width = LETTER * words.chars().count() as f64;
-        let room = [left, top, left + width, top + LINE];
+        // Most rays go up from what they meet, and down from the eye and lights.
+        let foot = if *is_met { y + 5.0 + LINE } else { y - 8.0 };
+        let half = 0.5 * LETTER * words.chars().count() as f64;
+        let room = [x - half, foot - LINE, x + half, foot];
         let overlaps = |other: &[f64; 4]| {
             room[0] < other[2] && other[0] < room[2] && room[1] < other[3] && other[1] < room[3]
         };
@@ -132,9 +134,8 @@ fn points(svg: &mut String, explained: &Explained, lines: &[Line], view: &View) 
         taken.push(room);
         let _ = writeln!(
             svg,
-            "<text x=\"{left:.1}\" y=\"{:.1}\" stroke=\"#ffffff\" stroke-width=\"3\" \
-             paint-order=\"stroke\">{}</text>",
-            y - 3.0,
+            "<text x=\"{x:.1}\" y=\"{foot:.1}\" text-anchor=\"middle\" stroke=\"#ffffff\" \
+             stroke-width=\"3\" paint-order=\"stroke\">{}</text>",
             escaped(words)
         );
     }

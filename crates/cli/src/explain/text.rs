@@ -22,7 +22,7 @@ pub(super) fn text(explained: &Explained, most: usize) -> String {
     // Writing to a string does not fail.
     let _ = write!(text, "radiance {}", triple(radiance));
     if let Some(Shown { stops, codes: [r, g, b] }) = explained.shown {
-        let _ = write!(text, ", shown as rgb({r}, {g}, {b}) with {} stops", short(stops));
+        let _ = write!(text, ", shown as rgb({r}, {g}, {b}) at an exposure of {stops} stops");
     }
     text.push('\n');
     let is_chosen = chosen(&tree.rays, most);
