@@ -2,6 +2,7 @@
 
 use crate::asked::AskedArgs;
 pub use crate::chart::ChartArgs;
+pub use crate::explain::ExplainArgs;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 use lancer_film::{LayerKind, Size, Window};
@@ -60,6 +61,9 @@ pub enum Command {
     /// Chart time against error: a scene with all ways of sampling and their settings
     #[command(after_help = EXIT_CODES)]
     Chart(ChartArgs),
+    /// Show the rays that are followed for a pixel, and what each brings it
+    #[command(after_help = EXIT_CODES)]
+    Explain(ExplainArgs),
 }
 
 /// What to render, how, and where to.
@@ -295,7 +299,7 @@ fn side(text: &str) -> Option<u32> {
 }
 
 /// A number in digits alone.
-fn number(text: &str) -> Option<u32> {
+pub(crate) fn number(text: &str) -> Option<u32> {
     text.bytes().all(|b| b.is_ascii_digit()).then(|| text.parse().ok()).flatten()
 }
 
@@ -340,7 +344,7 @@ pub(crate) fn parse_exposure(text: &str) -> Result<Exposure, String> {
         .ok_or_else(|| "expected auto, or a number of stops from -1000 to 1000".to_owned())
 }
 
-fn parse_cutoff(text: &str) -> Result<Whitted, String> {
+pub(crate) fn parse_cutoff(text: &str) -> Result<Whitted, String> {
     let cutoff = text.parse().ok().and_then(|cutoff| Whitted::with_cutoff(cutoff).ok());
     cutoff.ok_or_else(|| "expected a number from 0 to 1".to_owned())
 }

@@ -18,6 +18,7 @@ mod chart;
 mod check;
 mod compare;
 mod drawing;
+mod explain;
 mod export;
 mod files;
 mod interrupt;
@@ -88,6 +89,7 @@ pub fn run(words: &[OsString]) -> u8 {
         Command::Compare(args) => compare::run(args),
         Command::Export(args) => export::run(args),
         Command::Chart(args) => chart::run(args, words),
+        Command::Explain(args) => explain::run(args),
     };
     let (message, code) = match result {
         Ok(()) => return 0,

@@ -31,6 +31,7 @@ mod enclose;
 mod engine;
 mod numbers;
 mod plan;
+mod ray_tree;
 mod render;
 mod rows;
 mod samples;
@@ -46,6 +47,10 @@ pub use engine::{Engine, Rgb, Tracer, engine_by_name, engines};
 pub use lancer_kernel::{Culling, KernelSettings, lanes::Width};
 pub use numbers::Stream;
 pub use plan::{About, Asked, Dropped, Facts, Lint, Part, Plan, Reason, lints};
+pub use ray_tree::{
+    InMedium, LightAnswer, LightFate, MetSurface, NamedShape, RayFate, RayKind, RayTree, ShadowRay,
+    TracedRay,
+};
 pub use render::{Progress, RenderError, RenderSettings, Rendered, TILE_SIDE, render};
 pub use samples::{MOST_SAMPLES, Sample, Sampler, Seen};
 pub use sampling::{Accuracy, Forecast, Sampling, StopAt, Strategy, Why};

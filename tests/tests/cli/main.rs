@@ -1,6 +1,7 @@
 //! The program itself, run as a user runs it.
 
 mod chart;
+mod explain;
 mod export;
 mod sampling;
 #[cfg(unix)]

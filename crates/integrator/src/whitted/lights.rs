@@ -1,6 +1,7 @@
 use super::ball::Ball;
 use super::fresnel::{mirrored_by_sheet, mirrored_of_unbent};
 use super::media::{Media, medium, transmittance};
+use super::record::Notes;
 use super::signature::{self, Signing, Spot, Way};
 use super::stops::Stops;
 use super::tracer::{Place, Rgb64, Task, times};
@@ -173,6 +174,16 @@ impl Source {
         Some((ball, strength, mark))
     }
 
+    /// Whether it shines in the direction of a surface, be it behind it or not.
+    fn shines_towards(&self, seen: &Seen<'_>) -> bool {
+        let from = match &self.place {
+            From::Direction(_) => None,
+            From::Point(lamp) | From::Ball(lamp, _) => unit(seen.point.point - lamp),
+        };
+        let is_in = |cone: &Cone| from.is_none_or(|direction| cone.share(&direction) != 0.0);
+        self.brightness != 0.0 && self.beam.as_ref().is_none_or(is_in)
+    }
+
     /// What its beam leaves of a strength in that direction from the source, and the mark of
     /// that; none where there is no light.
     fn in_beam(&self, strength: f64, direction: impl FnOnce() -> Vector) -> Option<(f64, f64)> {
@@ -231,7 +242,7 @@ impl Lights {
         &self,
         prepared: &Prepared,
         seen: &Seen<'_>,
-        (spot, counts): (&mut Spot, &mut RayCounts),
+        (spot, counts, notes): (&mut Spot, &mut RayCounts, &mut S::Notes),
         (task, way): (&Task, Way),
     ) -> Rgb64 {
         let mut sum = [0.0; 3];
@@ -243,10 +254,17 @@ impl Lights {
                     task.stream.pair(light.dimension(way))
                 }),
             };
-            let Some(Shining { strength, mark, ray, t_max }) = shining else { continue };
+            let Some(Shining { strength, mark, ray, t_max }) = shining else {
+                notes.note(|record| record.no_light(light.number, !light.shines_towards(seen)));
+                continue;
+            };
             counts.shadow += 1;
-            let Some(ray) = ray else { continue };
+            let Some(ray) = ray else {
+                notes.note(|record| record.no_light(light.number, false));
+                continue;
+            };
             if prepared.any(&ray, t_max, Which::Opaque) {
+                notes.note(|record| record.hidden(light.number, prepared, &ray, t_max));
                 continue;
             }
             let (on, to) = ((&ray, t_max), (&mut *spot, &mut *counts));
@@ -254,6 +272,14 @@ impl Lights {
             if S::SIGNED && arrives != [0.0; 3] {
                 spot.lit += mark;
             }
+            notes.note(|record| {
+                record.light(
+                    light.number,
+                    (prepared, self.shadows),
+                    (&ray, t_max),
+                    (strength, arrives),
+                );
+            });
             for (sum, arrives) in sum.iter_mut().zip(arrives) {
                 // Nothing of something infinite is nothing.
                 if arrives != 0.0 {

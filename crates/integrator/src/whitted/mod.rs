@@ -6,15 +6,16 @@ mod ball;
 mod fresnel;
 mod lights;
 mod media;
+mod record;
 mod signature;
 mod stops;
 mod tile;
 mod tracer;
 mod view;
 
-use crate::{Engine, Plan, Tracer};
+use crate::{Engine, Plan, RayTree, Tracer};
 use lancer_film::Display;
-use lancer_kernel::LEAST_RADIUS;
+use lancer_kernel::{KernelSettings, LEAST_RADIUS};
 use lancer_scene::{Geometry, Group, InvalidField, OutOfRange, Placed, Scene, Shape};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -73,6 +74,18 @@ impl Whitted {
     #[must_use]
     pub const fn cutoff(&self) -> f64 {
         self.cutoff
+    }
+
+    /// All rays that are followed for the pixel at that column and row of the frame, seen at its
+    /// centre as where each pixel has one sample, and what they bring it.
+    #[must_use]
+    pub fn explain_pixel(
+        &self,
+        scene: &Scene,
+        kernel: &KernelSettings,
+        pixel: (u32, u32),
+    ) -> RayTree {
+        tracer::WhittedTracer::new(scene, self.cutoff, &Plan::full(kernel)).explain(scene, pixel)
     }
 }
 

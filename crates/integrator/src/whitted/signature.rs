@@ -4,26 +4,38 @@
 //! it, branch by branch, and of what it met. The order in which rays are followed depends
 //! on shares, which may change places from one sample to the next, and does not matter.
 
+use super::record::{Notes, Record};
 use crate::numbers::mixed;
 use lancer_kernel::{Prepared, SurfacePoint};
 use lancer_scene::Pattern;
 use std::ops::{Add, Mul};
 
-/// Whether signatures are asked for.
+/// Whether signatures are asked for, and notes.
 pub(super) trait Signing {
     const SIGNED: bool;
+    type Notes: Notes;
 }
 
 pub(super) struct Signed;
 
 impl Signing for Signed {
     const SIGNED: bool = true;
+    type Notes = ();
 }
 
 pub(super) struct Unsigned;
 
 impl Signing for Unsigned {
     const SIGNED: bool = false;
+    type Notes = ();
+}
+
+/// Without a signature, but with all rays written down.
+pub(super) struct Recorded;
+
+impl Signing for Recorded {
+    const SIGNED: bool = false;
+    type Notes = Record;
 }
 
 /// The halves of a product of 128 bits, one over the other, as Wang Yi's wyhash has it

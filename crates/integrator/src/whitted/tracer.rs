@@ -1,11 +1,14 @@
 use super::fresnel::{Refraction, mirrored_by_sheet, reflect, refract};
 use super::lights::{Lights, Seen};
 use super::media::{Media, medium, transmittance};
-use super::signature::{self, MIRRORED, ONWARD, Signed, Signing, Spot, Unsigned, Way};
+use super::record::{Notes, Record};
+use super::signature::{self, MIRRORED, ONWARD, Recorded, Signed, Signing, Spot, Unsigned, Way};
 use super::stops::Stop;
 use super::view::View;
 use crate::engine::in_parts;
-use crate::{MOST_SAMPLES, Plan, RayCounts, Rgb, Sample, Sampler, Stream, Tracer};
+use crate::{
+    MOST_SAMPLES, Plan, RayCounts, RayFate, RayKind, RayTree, Rgb, Sample, Sampler, Stream, Tracer,
+};
 use lancer_film::{LayerPixel, Window};
 use lancer_kernel::{KernelSettings, Prepared, SurfacePoint};
 use lancer_math::{Ray, Vector};
@@ -110,7 +113,7 @@ impl PartialEq for Pending {
 impl Eq for Pending {}
 
 /// A pixel or sample while it is summed up.
-struct Sum<'a> {
+struct Sum<'a, N> {
     radiance: Rgb64,
     signature: u64,
     /// Rays to follow.
@@ -123,6 +126,7 @@ struct Sum<'a> {
     given_up: f64,
     counts: &'a mut RayCounts,
     task: Task,
+    notes: &'a mut N,
 }
 
 impl WhittedTracer {
@@ -161,11 +165,18 @@ impl WhittedTracer {
     }
 
     /// What is seen at a place, followed alone, and its signature.
-    fn alone<S: Signing>(&self, at: [f64; 2], task: Task, counts: &mut RayCounts) -> (Rgb, u64) {
+    fn alone<S: Signing>(
+        &self,
+        at: [f64; 2],
+        task: Task,
+        counts: &mut RayCounts,
+        notes: &mut S::Notes,
+    ) -> (Rgb, u64) {
         let (ray, media) = self.primary(at, task.stream);
+        notes.note(|record| record.sent(0, RayKind::Primary, &ray, [1.0; 3], &media));
         let (depth, number, kind, way) = (0, 0, Kind::Primary, Way::EYE);
         let first = Pending { ray, share: [1.0; 3], media, depth, number, kind, way };
-        let (radiance, signature) = self.sum::<S>(first, ([0.0; 3], 0), task, counts);
+        let (radiance, signature) = self.sum::<S>(first, ([0.0; 3], 0), task, (counts, notes));
         let radiance = radiance.map(|v| v as f32);
         if radiance.iter().all(|v| v.is_finite()) {
             return (radiance, signature);
@@ -174,9 +185,19 @@ impl WhittedTracer {
         ([0.0; 3], signature)
     }
 
+    /// All rays of a pixel, followed alone at its centre.
+    pub(super) fn explain(&self, scene: &Scene, pixel: Place) -> RayTree {
+        let mut record = Record::default();
+        let (task, mut counts) = (Task::of_pixel(pixel), RayCounts::default());
+        let at = centre(pixel.0, pixel.1);
+        let (radiance, _) = self.alone::<Recorded>(at, task, &mut counts, &mut record);
+        let rays = record.finish(scene, &self.prepared);
+        RayTree { pixel: [pixel.0, pixel.1], radiance, rays }
+    }
+
     /// The radiance and signature of a pixel that are known but for what its only ray sees,
     /// which has left the last of so many mirrors.
-    pub(super) fn go_on<S: Signing>(
+    pub(super) fn go_on<S: Signing<Notes = ()>>(
         &self,
         (ray, share, depth, kind): (Ray, Rgb64, u32, Kind),
         (way, known): (Way, (Rgb64, u64)),
@@ -185,7 +206,7 @@ impl WhittedTracer {
     ) -> (Rgb64, u64) {
         let (media, number) = (Media::default(), depth);
         let next = Pending { ray, share, media, depth, number, kind, way };
-        self.sum::<S>(next, known, task, counts)
+        self.sum::<S>(next, known, task, (counts, &mut ()))
     }
 
     fn sum<S: Signing>(
@@ -193,7 +214,7 @@ impl WhittedTracer {
         first: Pending,
         (radiance, signature): (Rgb64, u64),
         task: Task,
-        counts: &mut RayCounts,
+        (counts, notes): (&mut RayCounts, &mut S::Notes),
     ) -> (Rgb64, u64) {
         let mut sum = Sum {
             radiance,
@@ -204,6 +225,7 @@ impl WhittedTracer {
             given_up: 0.0,
             counts,
             task,
+            notes,
         };
         self.follow::<S>(first, &mut sum);
         // The largest shares first, and until all that are left together are small
@@ -222,25 +244,31 @@ impl WhittedTracer {
         if left + sum.given_up > self.cutoff {
             sum.counts.troubles.given_up.at(task.pixel);
         }
+        if left > self.cutoff {
+            sum.notes.note(Record::gives_up_the_rest);
+        }
         (sum.radiance, sum.signature)
     }
 
-    fn follow<S: Signing>(&self, pending: Pending, sum: &mut Sum<'_>) {
+    fn follow<S: Signing>(&self, pending: Pending, sum: &mut Sum<'_, S::Notes>) {
         let Pending { ray, share, media, depth, number, kind, way } = pending;
         match kind {
             Kind::Primary => sum.counts.primary += 1,
             Kind::Reflected => sum.counts.reflected += 1,
             Kind::Transmitted => sum.counts.transmitted += 1,
         }
+        sum.notes.note(|record| record.follows(number));
         let here = medium(media.top(&self.prepared), &self.prepared);
         let Some(hit) = self.prepared.nearest(&ray, f64::INFINITY) else {
             let share = times(share, transmittance(&here, f64::INFINITY));
             if S::SIGNED {
                 sum.sign(way.meets(None).at(0.0, 0));
             }
+            sum.notes.note(|record| record.sees(share, self.background));
             return sum.add(share, self.background);
         };
         let share = times(share, transmittance(&here, hit.t));
+        sum.notes.note(|record| record.meets(share, hit.t));
         if !self.prepared.surface(hit.item).is_transparent() {
             let point = self.prepared.expand(&ray, &hit);
             let at = Pending { ray, share, media, depth, number, kind, way };
@@ -260,12 +288,11 @@ impl WhittedTracer {
         point: &SurfacePoint<'_>,
         more: f64,
         at: Pending,
-        sum: &mut Sum<'_>,
+        sum: &mut Sum<'_, S::Notes>,
     ) {
         let seen = Seen::new(&at.ray, point, more, &at.media);
         let gloss = point.surface.gloss.get();
-        sum.add(at.share, point.surface.emission.get());
-        let spot = self.matte::<S>(&seen, scaled(at.share, 1.0 - gloss), at.way, sum);
+        let spot = self.shown::<S>(&seen, (at.share, 1.0 - gloss), at.way, sum);
         if S::SIGNED {
             sum.sign(at.way.meets(Some(point.item)).at(spot.lit, spot.piece));
         }
@@ -277,7 +304,7 @@ impl WhittedTracer {
     }
 
     /// Surfaces that let light through, at one place.
-    fn transparent<S: Signing>(&self, stop: &Stop<'_>, at: Pending, sum: &mut Sum<'_>) {
+    fn transparent<S: Signing>(&self, stop: &Stop<'_>, at: Pending, sum: &mut Sum<'_, S::Notes>) {
         let Pending { ray, mut share, media, depth, mut way, .. } = at;
         let here = medium(media.top(&self.prepared), &self.prepared);
         let more = stop.thickness();
@@ -288,8 +315,7 @@ impl WhittedTracer {
             let parts = Parts::new(point);
             let mirrored =
                 mirrored_by_sheet(cosine, here.ior.get(), point.surface.medium.ior.get());
-            sum.add(share, point.surface.emission.get());
-            let spot = self.matte::<S>(&seen, scaled(share, parts.matte), way, sum);
+            let spot = self.shown::<S>(&seen, (share, parts.matte), way, sum);
             if S::SIGNED {
                 sum.sign(way.meets(Some(point.item)).at(spot.lit, spot.piece));
             }
@@ -321,8 +347,7 @@ impl WhittedTracer {
         let parts = Parts::new(point);
         let n1 = medium(border.before, &self.prepared).ior.get();
         let n2 = medium(border.after, &self.prepared).ior.get();
-        sum.add(share, point.surface.emission.get());
-        let mut spot = self.matte::<S>(&seen, scaled(share, parts.matte), way, sum);
+        let mut spot = self.shown::<S>(&seen, (share, parts.matte), way, sum);
         let (reflected, transmitted) =
             ((Kind::Reflected, way.then(MIRRORED)), (Kind::Transmitted, way.then(ONWARD)));
         match seen.refract(ray.direction, n1, n2) {
@@ -344,21 +369,26 @@ impl WhittedTracer {
         }
     }
 
-    /// Adds what lights make of a surface's matte part, and says where on it that is.
-    fn matte<S: Signing>(
+    /// Adds a surface's emission and what lights make of its matte part, and says where on it
+    /// that is.
+    fn shown<S: Signing>(
         &self,
         seen: &Seen<'_>,
-        share: Rgb64,
+        (share, matte): (Rgb64, f64),
         way: Way,
-        sum: &mut Sum<'_>,
+        sum: &mut Sum<'_, S::Notes>,
     ) -> Spot {
         let mut spot = match S::SIGNED {
             true => Spot::new(&self.prepared, seen.point, seen.from_behind),
             false => Spot::default(),
         };
-        let share = times(share, seen.point.albedo);
+        let emission = seen.point.surface.emission.get();
+        sum.add(share, emission);
+        let matte = scaled(share, matte);
+        sum.notes.note(|record| record.surface(seen, share, matte));
+        let share = times(matte, seen.point.albedo);
         if share != [0.0; 3] {
-            let to = (&mut spot, &mut *sum.counts);
+            let to = (&mut spot, &mut *sum.counts, &mut *sum.notes);
             let light = self.lights.gather::<S>(&self.prepared, seen, to, (&sum.task, way));
             sum.add(share, light);
         }
@@ -415,7 +445,18 @@ pub(super) enum Kind {
     Transmitted,
 }
 
-impl Sum<'_> {
+impl Kind {
+    /// As others are told of it.
+    const fn name(self) -> RayKind {
+        match self {
+            Self::Primary => RayKind::Primary,
+            Self::Reflected => RayKind::Reflected,
+            Self::Transmitted => RayKind::Transmitted,
+        }
+    }
+}
+
+impl<N: Notes> Sum<'_, N> {
     fn add(&mut self, share: Rgb64, radiance: Rgb64) {
         for i in 0..3 {
             // Nothing of something infinite is nothing.
@@ -438,6 +479,7 @@ impl Sum<'_> {
     ) {
         self.rays += 1;
         let number = self.rays;
+        self.notes.note(|record| record.sent(number, kind.name(), &ray, share, &media));
         let pending = Pending { ray, share, media, depth: depth + 1, number, kind, way };
         let size = pending.size();
         if size == 0.0 {
@@ -446,10 +488,12 @@ impl Sum<'_> {
         if !share.iter().all(|share| share.is_finite()) {
             // It is found where colours are looked at.
             self.radiance = [f64::NAN; 3];
+            self.notes.note(|record| record.ends(number, RayFate::NotFinite));
             return;
         }
         if depth >= DEEPEST {
             self.given_up += size;
+            self.notes.note(|record| record.ends(number, RayFate::GivenUp));
             return;
         }
         self.left += size;
@@ -475,14 +519,14 @@ impl Sampler for WhittedTracer {
 
     fn see_alone(&self, sample: &Sample, counts: &mut RayCounts) -> crate::Seen {
         let (radiance, signature) =
-            self.alone::<Signed>(sample.place, Task::of_sample(sample), counts);
+            self.alone::<Signed>(sample.place, Task::of_sample(sample), counts, &mut ());
         crate::Seen { radiance, signature }
     }
 }
 
 impl Tracer for WhittedTracer {
     fn pixel(&self, x: u32, y: u32, counts: &mut RayCounts) -> Rgb {
-        self.alone::<Unsigned>(centre(x, y), Task::of_pixel((x, y)), counts).0
+        self.alone::<Unsigned>(centre(x, y), Task::of_pixel((x, y)), counts, &mut ()).0
     }
 
     fn sampler(&self) -> Option<&dyn Sampler> {

@@ -130,6 +130,17 @@ impl Prepared {
         }
     }
 
+    /// The number of an item's shape in the description: that of
+    /// [`SurfacePoint::shape`].
+    ///
+    /// # Panics
+    /// Where there is no such item.
+    #[must_use]
+    pub fn shape(&self, item: u32) -> u32 {
+        let item = self.item(item);
+        item.place.space.first_shape + item.shape
+    }
+
     /// The two colours of an item; the same where it has no checker.
     ///
     /// # Panics

@@ -11,7 +11,7 @@ use lancer_kernel::lanes::{Lanes, MOST, smaller};
 
 /// The places of a picture that are seen together, no more than a tile has pixels.
 pub(super) trait Places {
-    type Signing: Signing;
+    type Signing: Signing<Notes = ()>;
 
     fn count(&self) -> usize;
 
