@@ -61,7 +61,7 @@ pub enum Command {
     /// Chart time against error: a scene with all ways of sampling and their settings
     #[command(after_help = EXIT_CODES)]
     Chart(ChartArgs),
-    /// Show the rays that are followed for a pixel, and what each brings it
+    /// Tell what is done for a scene, what is left out and why, or show the rays of a pixel
     #[command(after_help = EXIT_CODES)]
     Explain(ExplainArgs),
 }

@@ -4,18 +4,24 @@ mod args;
 mod drawing;
 mod json;
 mod lines;
+mod plan;
 mod text;
 
 pub use args::ExplainArgs;
 
 use crate::args::is_standard;
 use crate::files::{Target, read};
+use crate::lints::Looked;
+use crate::render::WHITTED;
 use crate::scene::Wanted;
 use crate::{Failure, report};
-use lancer_film::{Size, Window};
-use lancer_integrator::{Engine, KernelSettings, RayTree, RenderSettings, Whitted, Width, render};
+use lancer_film::{Quality, Size, Window};
+use lancer_integrator::{
+    Engine, Facts, KernelSettings, RayTree, RenderSettings, Sampling, Whitted, Width, render,
+};
 use lancer_output::to_rgb8;
-use lancer_scene::{Exposure, Light, Scene};
+use lancer_scene::{Exposure, Light, PixelCount, Scene};
+use lancer_xml::Source;
 use std::io::Write;
 
 pub(crate) fn run(args: &ExplainArgs) -> Result<(), Failure> {
@@ -30,7 +36,10 @@ pub(crate) fn run(args: &ExplainArgs) -> Result<(), Failure> {
         max_pixels: args.max_pixels,
         quiet: args.quiet,
     };
-    let (scene, _) = wanted.scene(&name, &bytes)?;
+    let (scene, source) = wanted.scene(&name, &bytes)?;
+    let Some(pixel) = args.pixel else {
+        return explain_plan(args, (&name, &source), &scene, kernel);
+    };
     let engine = args.cutoff.unwrap_or_default();
     if !args.quiet {
         for warning in engine.warnings(&scene) {
@@ -38,7 +47,7 @@ pub(crate) fn run(args: &ExplainArgs) -> Result<(), Failure> {
         }
     }
     let frame = Size::new(scene.camera.px_width.get(), scene.camera.px_height.get());
-    let (x, y) = args.pixel;
+    let (x, y) = pixel;
     if x >= frame.width || y >= frame.height {
         return Err(Failure::Usage(format!(
             "--pixel {x},{y} is not in the picture, which has {frame} pixels: columns 0 to {}, rows 0 \
@@ -47,9 +56,9 @@ pub(crate) fn run(args: &ExplainArgs) -> Result<(), Failure> {
             frame.height - 1
         )));
     }
-    let tree = engine.explain_pixel(&scene, &kernel, args.pixel);
+    let tree = engine.explain_pixel(&scene, &kernel, pixel);
     let explained = Explained {
-        shown: shown(&scene, &engine, args, kernel)?,
+        shown: shown(&scene, &engine, (args, pixel), kernel)?,
         name,
         frame,
         cutoff: engine.cutoff(),
@@ -66,9 +75,74 @@ pub(crate) fn run(args: &ExplainArgs) -> Result<(), Failure> {
         true => json::json(&explained),
         false => text::text(&explained, if args.all { usize::MAX } else { text::MOST_LINES }),
     };
+    print(&told)
+}
+
+fn print(text: &str) -> Result<(), Failure> {
     std::io::stdout()
-        .write_all(told.as_bytes())
+        .write_all(text.as_bytes())
         .map_err(|e| Failure::work(format_args!("cannot write to standard output: {e}")))
+}
+
+/// The longer side of the picture whose rays are counted, in pixels.
+const SMALL: u32 = 96;
+/// The error of the one whose pixels are counted that one sample settles.
+const ROUGH: f64 = 0.01;
+
+/// Tells what is done for the scene, and what is left out; and what is probably not meant.
+fn explain_plan(
+    args: &ExplainArgs,
+    (name, source): (&str, &Source),
+    scene: &Scene,
+    kernel: KernelSettings,
+) -> Result<(), Failure> {
+    let engine = args.cutoff.unwrap_or_else(|| Whitted::for_error(Some(args.error)));
+    let sampling = Sampling { error: Some(args.error), ..Sampling::default() };
+    let settings = RenderSettings {
+        exposure: args.exposure,
+        sampling: Some(sampling),
+        kernel,
+        full_model: args.full_model,
+        ..RenderSettings::default()
+    };
+    let plan = settings.plan(scene, &engine);
+    if !args.quiet {
+        for warning in engine.warnings(scene) {
+            report::say(format_args!("warning: {name}: {warning}"));
+        }
+        let tracer = engine.prepare(scene, &plan);
+        Looked { scene, plan: &plan, tracer: &*tracer }.tell(name, source, false);
+    }
+    let mut small = scene.clone();
+    let [width, height] = [scene.camera.px_width.get(), scene.camera.px_height.get()];
+    let shrunk = |side: u32| {
+        let side = u64::from(side) * u64::from(SMALL) / u64::from(width.max(height).max(SMALL));
+        PixelCount::new(side.max(1) as u32).map_err(Failure::work)
+    };
+    (small.camera.px_width, small.camera.px_height) = (shrunk(width)?, shrunk(height)?);
+    let one = RenderSettings { sampling: None, ..settings };
+    let rendered = render(&small, &engine, &one).map_err(Failure::work)?;
+    // Rough, so that it does not take long.
+    let rough = Sampling { error: Some(args.error.max(ROUGH)), ..sampling };
+    let rough = RenderSettings { sampling: Some(rough), quality: true, ..settings };
+    let quality = render(&small, &engine, &rough).map_err(Failure::work)?.quality;
+    let pixels = quality.as_ref().map_or(&[][..], Quality::pixels);
+    let settled = pixels.iter().filter(|pixel| pixel.samples == 1).count();
+    let facts = Facts::of(scene);
+    let planned = plan::Planned {
+        name,
+        scene,
+        facts: &facts,
+        plan: &plan,
+        parts: &plan.parts(scene, &facts, &engine),
+        engine: WHITTED,
+        cutoff: engine.cutoff(),
+        error: args.error,
+        settled: settled as f64 / pixels.len().max(1) as f64,
+        counts: rendered.counts,
+        pixels: rendered.film.window().pixels(),
+    };
+    print(&if args.json { plan::json(&planned) } else { plan::text(&planned) })
 }
 
 /// A pixel's rays, and what they belong to.
@@ -119,7 +193,7 @@ const fn kind(light: &Light) -> &'static str {
 fn shown(
     scene: &Scene,
     engine: &Whitted,
-    args: &ExplainArgs,
+    (args, (x, y)): (&ExplainArgs, (u32, u32)),
     kernel: KernelSettings,
 ) -> Result<Option<Shown>, Failure> {
     let exposure = args.exposure.unwrap_or(scene.camera.exposure);
@@ -127,7 +201,6 @@ fn shown(
         return Ok(None);
     }
     // Exposing and encoding is left to those who do it for pictures.
-    let (x, y) = args.pixel;
     let window = Window { x, y, width: 1, height: 1 };
     let settings = RenderSettings {
         window: Some(window),

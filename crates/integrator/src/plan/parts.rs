@@ -2,6 +2,7 @@
 
 use super::{Facts, Plan, Reason};
 use crate::Whitted;
+use lancer_kernel::is_met_in_lanes;
 use lancer_scene::Scene;
 
 /// A part of the machinery.
@@ -32,7 +33,7 @@ impl Plan {
     /// What runs, and what does not.
     #[must_use]
     pub fn parts(&self, scene: &Scene, facts: &Facts, engine: &Whitted) -> Vec<Part> {
-        let mut parts = vec![acceleration(facts), lights(scene, self)];
+        let mut parts = vec![acceleration(scene, facts), lights(scene, self)];
         if self.dropped.iter().any(|dropped| dropped.why == Reason::Dim) {
             let most = self.most();
             let why = "lights that are too dim or too far to matter are not asked";
@@ -93,16 +94,10 @@ fn placed(groups: u64) -> String {
     format!("{} placed, at most", count(groups, "group"))
 }
 
-/// So many spheres and planes are held against whole registers of rays, without a hierarchy.
-const FEW: u64 = 64;
-
-fn acceleration(facts: &Facts) -> Part {
-    let direct = ["sphere", "plane"].iter().filter_map(|kind| facts.kinds.get(*kind)).sum::<u64>();
-    let is_direct = direct == facts.shapes && facts.groups == 0 && facts.shapes <= FEW;
+fn acceleration(scene: &Scene, facts: &Facts) -> Part {
+    let is_direct = is_met_in_lanes(scene);
     let why = if is_direct {
-        format!("{} and planes alone: all are held against rays at once", {
-            count(facts.kinds.get("sphere").copied().unwrap_or(0), "sphere")
-        })
+        "spheres and planes alone, and few: all are held against many rays at once".to_owned()
     } else {
         let triangles = match facts.triangles {
             0 => String::new(),

@@ -10,10 +10,25 @@ use crate::shapes::plane::HalfSpace;
 use crate::shapes::sphere::Ball;
 use crate::{Hit, Rays};
 use lancer_math::{Point, Ray, Vector};
-use lancer_scene::{Geometry, Shape};
+use lancer_scene::{Geometry, Scene, Shape};
 
 /// More spheres than these are met by one ray at a time, many spheres at once.
 const MOST_SPHERES: usize = 16;
+
+/// Whether all shapes of a scene are few enough, and simple enough, to be held against whole
+/// registers of rays, so that there is no hierarchy of boxes.
+#[must_use]
+pub fn is_met_in_lanes(scene: &Scene) -> bool {
+    let count = |is_one: fn(&Geometry) -> bool| {
+        scene.shapes.iter().filter(|shape| is_one(&shape.geometry)).count()
+    };
+    let spheres = count(|geometry| matches!(geometry, Geometry::Sphere(_)));
+    let planes = count(|geometry| matches!(geometry, Geometry::Plane(_)));
+    spheres + planes == scene.shapes.len()
+        && scene.groups.is_empty()
+        && spheres <= MOST_SPHERES
+        && planes <= MOST_LISTED
+}
 
 /// A scene's own spheres and its planes, each kind if it is few, and which are.
 pub(super) fn listed(shapes: &[Shape]) -> (Listed, Known) {

@@ -9,6 +9,8 @@ mod quests;
 mod space;
 mod walk;
 
+pub use in_lanes::is_met_in_lanes;
+
 use crate::lanes::{Lanes, Work, dispatch};
 use crate::listed::Listed;
 use crate::{Hit, KernelSettings};
