@@ -353,8 +353,7 @@ fn what_cannot_be_explained_leaves_nothing() {
     fs::write(folder.path("bad.xml"), "<world/>").expect("written");
     let pixel = ["--pixel", "1,2"];
     for (arguments, code, with) in [
-        (&["scene.xml"][..], 2, "--pixel"),
-        (&["scene.xml", "--pixel", "1"], 2, "a column and a row"),
+        (&["scene.xml", "--pixel", "1"][..], 2, "a column and a row"),
         (&["scene.xml", "--pixel", "-1,2"], 2, "a column and a row"),
         (&["scene.xml", "--pixel", "40,0"], 2, "40x30 pixels: columns 0 to 39, rows 0 to 29"),
         (&["scene.xml", "--pixel", "0,30"], 2, "is not in the picture"),

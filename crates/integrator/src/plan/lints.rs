@@ -49,9 +49,10 @@ impl Lint {
 pub fn lints(scene: &Scene, facts: &Facts, plan: &Plan, tracer: &dyn Tracer) -> Vec<Lint> {
     let mut lints = Vec::new();
     dark(scene, facts, plan, &mut lints);
-    inside(scene, &mut lints);
+    let around_eye = around(scene, &scene.camera.origin().get());
+    inside(scene, around_eye, &mut lints);
     unseen(scene, facts, tracer, &mut lints);
-    enclosed(scene, &mut lints);
+    enclosed(scene, around_eye, &mut lints);
     coincident(scene, facts, &mut lints);
     lints.sort_by_key(|lint| lint.about);
     lints
@@ -90,31 +91,31 @@ fn dark(scene: &Scene, facts: &Facts, plan: &Plan, lints: &mut Vec<Lint>) {
     }
 }
 
+/// The first opaque shape that a point is inside of.
+fn around(scene: &Scene, point: &Point) -> Option<usize> {
+    let is_around = |shape: &Shape| is_opaque_solid(shape) && figure::encloses(shape, point);
+    scene.shapes.iter().position(is_around)
+}
+
 /// Camera and lamps within opaque shapes.
-fn inside(scene: &Scene, lints: &mut Vec<Lint>) {
-    let around = |point: &Point| {
-        scene
-            .shapes
-            .iter()
-            .position(|shape| is_opaque_solid(shape) && figure::encloses(shape, point))
-    };
-    if let Some(shape) = around(&scene.camera.origin().get()) {
+fn inside(scene: &Scene, around_eye: Option<usize>, lints: &mut Vec<Lint>) {
+    if let Some(shape) = around_eye {
         let kind = scene.shapes[shape].geometry.kind();
         lints.push(Lint::new(
             About::Camera,
             format!("the camera is inside of shape {}, a {kind}, which is opaque", shape + 1),
             "it sees the inside alone",
-            "move the camera's origin out of it",
+            "move the camera's origin out of it, or for a room let rectangles stand for its walls",
         ));
     }
     for (number, light) in scene.lights.iter().enumerate() {
         let (Light::Lamp { point, radius, .. } | Light::Spot { point, radius, .. }) = light else {
             continue;
         };
-        // Planes are told of by what they hide.
-        let Some(shape) = around(&point.get()) else { continue };
+        let Some(shape) = around(scene, &point.get()) else { continue };
         let solid = &scene.shapes[shape];
-        if matches!(solid.geometry, Geometry::Plane(_)) {
+        // In one room.
+        if around_eye == Some(shape) {
             continue;
         }
         // A larger ball shines out of it.
@@ -141,8 +142,10 @@ fn inside(scene: &Scene, lints: &mut Vec<Lint>) {
     }
 }
 
+/// Planes are not: they are seen from both sides.
 fn is_opaque_solid(shape: &Shape) -> bool {
-    !shape.surface.is_transparent() && shape.geometry.is_closed()
+    let is_plane = matches!(shape.geometry, Geometry::Plane(_));
+    !is_plane && !shape.surface.is_transparent() && shape.geometry.is_closed()
 }
 
 /// Along a side of the picture so many pixels are looked at.
@@ -194,8 +197,8 @@ fn unseen(scene: &Scene, facts: &Facts, tracer: &dyn Tracer, lints: &mut Vec<Lin
 /// Shapes are compared with one another up to so many.
 const MOST_COMPARED: usize = 1000;
 
-/// Shapes wholly within opaque spheres and boxes.
-fn enclosed(scene: &Scene, lints: &mut Vec<Lint>) {
+/// Shapes wholly within opaque spheres and boxes, but for those around the eye.
+fn enclosed(scene: &Scene, around_eye: Option<usize>, lints: &mut Vec<Lint>) {
     let shapes = &scene.shapes;
     if shapes.len() > MOST_COMPARED {
         return;
@@ -210,6 +213,7 @@ fn enclosed(scene: &Scene, lints: &mut Vec<Lint>) {
         let Some(own) = own else { continue };
         let around = shapes.iter().enumerate().position(|(other, shape)| {
             other != number
+                && around_eye != Some(other)
                 && convex(shape)
                 && own.corners().iter().all(|corner| figure::encloses(shape, corner))
         });
