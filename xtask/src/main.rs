@@ -7,6 +7,7 @@ mod chart;
 mod docs;
 mod gallery;
 mod goldens;
+mod plan_report;
 mod sections;
 mod stability;
 mod tidy;
@@ -45,6 +46,8 @@ enum Command {
     Calibrate(calibrate::CalibrateArgs),
     /// Draw the charts of the docs anew (build with --release)
     Chart(chart::ChartArgs),
+    /// Measure what each rule of a plan saves (build with --release)
+    PlanReport(plan_report::PlanReportArgs),
 }
 
 /// Why a chore was not done.
@@ -67,6 +70,7 @@ fn main() -> ExitCode {
         Command::Stability(args) => stability::run(&args),
         Command::Calibrate(args) => calibrate::run(&args),
         Command::Chart(args) => chart::run(&args),
+        Command::PlanReport(args) => plan_report::run(&args),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -14,7 +14,7 @@ pub(super) const SCENES: &[(&str, u32)] = &[
     ("first.xml", 1),
     ("facing_mirrors.xml", 1),
     ("mirror_corridor.xml", 1),
-    ("water_glass.xml", 3),
+    ("water_glass.xml", 6),
     ("underwater.xml", 1),
     ("glass.xml", 1),
     ("absorption.xml", 1),

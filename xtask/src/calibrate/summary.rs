@@ -67,6 +67,16 @@ pub(super) struct Run {
     pub(super) forecast: Option<f64>,
 }
 
+/// A picture is not judged by a reference that is off by more than this part of the error
+/// asked for: what is found would be the reference's.
+const OF_ASKED: f64 = 0.3;
+
+impl Run {
+    fn is_judged(&self) -> bool {
+        self.reference <= OF_ASKED * self.asked
+    }
+}
+
 impl fmt::Display for Run {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
@@ -93,11 +103,17 @@ pub(super) fn report(runs: &[Run], levels: &[f64]) -> String {
     format!("{}\n{}", promises(runs), by_scene(runs, levels))
 }
 
-fn promises(runs: &[Run]) -> Table {
-    let mut table = Table::new(&["of all runs", "found", "wanted"]);
+fn promises(all: &[Run]) -> Table {
+    let runs: Vec<&Run> = all.iter().filter(|run| run.is_judged()).collect();
+    let mut table = Table::new(&["of the pictures that are judged", "found", "wanted"]);
     let mut row = |what: &str, share: Share, wanted: &str| {
         table.row(vec![what.to_owned(), share.to_string(), wanted.to_owned()]);
     };
+    row(
+        "reference off by at most 0.3 of what was asked for: these are judged",
+        Share::of_all(all.iter().map(Run::is_judged)),
+        "",
+    );
     row(
         "true error at most the one asked for",
         Share::of_all(runs.iter().map(|run| run.truth <= run.asked)),
@@ -122,7 +138,7 @@ fn promises(runs: &[Run]) -> Table {
     );
     row(
         "time within 25 % of its forecast, where there was one",
-        Share::of_all(runs.iter().filter_map(|run| {
+        Share::of_all(all.iter().filter_map(|run| {
             let ratio = run.seconds / run.forecast?;
             Some((0.75..=1.25).contains(&ratio))
         })),
@@ -156,12 +172,18 @@ fn by_scene(runs: &[Run], levels: &[f64]) -> Table {
             let run = own.iter().find(|run| run.asked == *level);
             run.map_or_else(String::new, |run| {
                 // Those that cannot be worse are not to be blamed for being better.
-                let mark = if run.needed_more { "" } else { "*" };
+                let mark = match run.is_judged() {
+                    false => "~",
+                    true if run.needed_more => "",
+                    true => "*",
+                };
                 format!("{:.2}{mark}", run.truth / run.asked)
             })
         }));
-        row.push(range(own.iter().map(|run| run.predicted / run.truth)));
-        row.push(format!("{:.1}", Share::pooled(own.iter().map(|run| run.refined)).percent()));
+        let judged = || own.iter().filter(|run| run.is_judged());
+        row.push(range(judged().map(|run| run.predicted / run.truth)));
+        let within = Share::pooled(judged().map(|run| run.refined));
+        row.push(if within.of == 0 { "-".to_owned() } else { format!("{:.1}", within.percent()) });
         row.push(own.first().map_or_else(String::new, |run| format!("{:.1e}", run.reference)));
         row.push(range(own.iter().filter_map(|run| Some(run.seconds / run.forecast?))));
         table.row(row);
@@ -203,15 +225,18 @@ mod tests {
             run("a.xml", 0.002, 0.0021, true),
             run("b.xml", 0.004, 0.0005, false),
             run("b.xml", 0.002, 0.0005, true),
+            // Not judged.
+            Run { reference: 0.002, ..run("c.xml", 0.004, 0.008, true) },
         ];
         let text = report(&runs, &[0.004, 0.002]);
         for row in [
+            " 4 of 5 (80.0 %) |",
             "| true error at most the one asked for ",
             " 3 of 4 (75.0 %) |",
             " 2 of 3 (66.7 %) |",
             " 380 of 400 (95.0 %) |",
             " 36 of 40 (90.0 %) |",
-            " 3 of 3 (100.0 %) |",
+            " 4 of 4 (100.0 %) |",
         ] {
             assert!(text.contains(row), "{row} is not in\n{text}");
         }
@@ -222,5 +247,6 @@ mod tests {
             ["a.xml", "0.95", "1.05", "0.95 to 1.05", "95.0", "1.0e-4", "0.80 to 0.80"]
         );
         assert_eq!(cells(rows[1])[2..4], ["0.12*", "0.25"]);
+        assert_eq!(cells(rows[2])[2..6], ["2.00~", "", "-", "-"]);
     }
 }
