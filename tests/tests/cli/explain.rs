@@ -226,6 +226,11 @@ fn a_student_can_read_it() {
         let arguments =
             ["explain", &file, "--pixel", pixel, "--size", "400x300", "--cutoff", "0.01"];
         let text = told(&folder, &[&arguments[..], &["--exposure", "0"]].concat());
+        if name == "first" {
+            let manual = fs::read_to_string(top().join("docs/manual.md")).expect("it is there");
+            let (_, rays) = text.split_once('\n').expect("it has lines");
+            assert!(manual.contains(rays), "the manual shows it");
+        }
         let mut settings = insta::Settings::clone_current();
         settings.set_snapshot_path(top().join("tests/snapshots/rays"));
         settings.set_prepend_module_to_snapshot(false);
