@@ -158,7 +158,7 @@ const MOST_BYTES: usize = 80;
 
 /// Neither a control character nor one that changes the direction of the text
 /// around it.
-fn is_printable(c: char) -> bool {
+pub(crate) fn is_printable(c: char) -> bool {
     !c.is_control()
         && !matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }

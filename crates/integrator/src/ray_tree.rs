@@ -7,6 +7,23 @@ use crate::Rgb;
 /// The contributions of all of them ([`TracedRay::background`], [`MetSurface::glow`] and
 /// [`LightAnswer::contribution`]) add up to [`radiance`](Self::radiance), but for rounding to
 /// single precision, and unless colours are no finite numbers, where it is black.
+///
+/// ```
+/// use lancer_integrator::{KernelSettings, RayKind, Whitted};
+/// use lancer_scene::{Camera, Colour, Light, Scene, Shape, Surface};
+///
+/// let scene = Scene::builder()
+///     .camera(Camera::new([0.0, -4.0, 0.0], [0.0, -3.0, 0.0], 1.0, [32, 24]))
+///     .light(Light::sun([0.0, 1.0, 0.0], 1.0))
+///     .shape(Shape::sphere([0.0; 3], 1.0, Surface::new(Colour::RED).gloss(0.5)?))
+///     .build()?;
+/// let tree = Whitted::new().explain_pixel(&scene, &KernelSettings::default(), (16, 12));
+/// let [primary, reflected] = &tree.rays[..] else { panic!("a mirror sends one back") };
+/// assert_eq!(primary.surfaces[0].shape.kind, "sphere");
+/// assert_eq!((reflected.kind, reflected.share), (RayKind::Reflected, [0.5; 3]));
+/// assert_eq!(reflected.background, Some([0.0; 3]), "it is dark there");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct RayTree {
     /// Column and row of the pixel, from 0; row 0 is at the top.

@@ -35,7 +35,7 @@ fn trees_of(scene: &Scene) -> Vec<RayTree> {
     pixels.map(|pixel| tree(scene, pixel)).collect()
 }
 
-const SCENES: [&str; 8] = [
+const SCENES: [&str; 12] = [
     "readme.xml",
     "first.xml",
     "water_glass.xml",
@@ -44,6 +44,10 @@ const SCENES: [&str; 8] = [
     "soft_shadow.xml",
     "underwater.xml",
     "depth_of_field.xml",
+    "emission.xml",
+    "instances.xml",
+    "sheets.xml",
+    "spots.xml",
 ];
 
 #[test]
@@ -226,6 +230,11 @@ fn a_student_can_read_it() {
         let arguments =
             ["explain", &file, "--pixel", pixel, "--size", "400x300", "--cutoff", "0.01"];
         let text = told(&folder, &[&arguments[..], &["--exposure", "0"]].concat());
+        if name == "first" {
+            let manual = fs::read_to_string(top().join("docs/manual.md")).expect("it is there");
+            let (_, rays) = text.split_once('\n').expect("it has lines");
+            assert!(manual.contains(rays), "the manual shows it");
+        }
         let mut settings = insta::Settings::clone_current();
         settings.set_snapshot_path(top().join("tests/snapshots/rays"));
         settings.set_prepend_module_to_snapshot(false);
@@ -336,6 +345,16 @@ fn lines_can_be_read_by_others() {
         assert!(drawing.contains(words), "{words}");
     }
     assert!(!drawing.contains("NaN") && !drawing.contains("inf"));
+}
+
+#[test]
+fn what_is_no_finite_number_is_said_to_be_black() {
+    let folder = Folder::new();
+    fs::write(folder.path("bright.xml"), SCENE.replace("brightness=\"4\"", "brightness=\"1e300\""))
+        .expect("written");
+    let text = told(&folder, &["explain", "bright.xml", "--pixel", "20,29", "--quiet"]);
+    let words = "radiance (0, 0, 0), since what is seen there is no finite number\n";
+    assert!(text.contains(words), "{text}");
 }
 
 #[test]

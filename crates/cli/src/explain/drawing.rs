@@ -115,12 +115,13 @@ fn points(svg: &mut String, explained: &Explained, lines: &[Line], view: &View) 
             ));
         }
     }
+    points.retain(|([x, y], ..)| x.is_finite() && y.is_finite());
     let mut taken: Vec<[f64; 4]> = Vec::new();
-    for ([x, y], fill, words, is_met) in &points {
-        if !(x.is_finite() && y.is_finite()) {
-            continue;
-        }
+    for ([x, y], fill, ..) in &points {
         let _ = writeln!(svg, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3.5\" fill=\"{fill}\"/>");
+        taken.push([x - 3.5, y - 3.5, x + 3.5, y + 3.5]);
+    }
+    for ([x, y], _, words, is_met) in &points {
         // Most rays go up from what they meet, and down from the eye and lights.
         let foot = if *is_met { y + 5.0 + LINE } else { y - 8.0 };
         let half = 0.5 * LETTER * words.chars().count() as f64;

@@ -167,8 +167,8 @@ impl Explained {
     /// The pixel and its scene; names of files may hold anything.
     fn title(&self) -> String {
         let [x, y] = self.tree.pixel;
-        let name: String =
-            self.name.chars().map(|c| if c.is_control() { '?' } else { c }).collect();
+        let printable = |c| if report::is_printable(c) { c } else { '?' };
+        let name: String = self.name.chars().map(printable).collect();
         format!("pixel {x},{y} of {name} ({} pixels)", self.frame)
     }
 }

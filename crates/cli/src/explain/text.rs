@@ -21,6 +21,9 @@ pub(super) fn text(explained: &Explained, most: usize) -> String {
     let radiance = tree.radiance.map(f64::from);
     // Writing to a string does not fail.
     let _ = write!(text, "radiance {}", triple(radiance));
+    if tree.sum().iter().any(|sum| !(*sum as f32).is_finite()) {
+        text.push_str(", since what is seen there is no finite number");
+    }
     if let Some(Shown { stops, codes: [r, g, b] }) = explained.shown {
         let _ = write!(text, ", shown as rgb({r}, {g}, {b}) at an exposure of {stops} stops");
     }

@@ -77,7 +77,8 @@ impl Whitted {
     }
 
     /// All rays that are followed for the pixel at that column and row of the frame, seen at its
-    /// centre as where each pixel has one sample, and what they bring it.
+    /// centre as where each pixel has one sample, and what they bring it. Places outside of the frame
+    /// have rays as well.
     #[must_use]
     pub fn explain_pixel(
         &self,
