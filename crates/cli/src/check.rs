@@ -32,7 +32,10 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
                 tally.errors += 1;
             }
             for warning in engine.warnings(scene) {
-                tally.warnings += 1;
+                match &args.deny {
+                    Some(_) => tally.errors += 1,
+                    None => tally.warnings += 1,
+                }
                 report::say(format_args!("warning: {name}: {warning}"));
             }
             if tally.errors == 0 {

@@ -44,12 +44,14 @@ impl Drawing<'_> {
         }
     }
 
-    /// Tells what is probably not meant; how much that is.
+    /// Tells what is probably not meant; how much that is, with what the engine warns about, which
+    /// has been told.
     pub(crate) fn lints(&self, name: &str, source: &Source) -> usize {
         let plan = self.settings().plan(self.scene, self.engine);
         let tracer = self.engine.prepare(self.scene, &plan);
         let looked = Looked { scene: self.scene, plan: &plan, tracer: &*tracer };
-        looked.tell(name, source, self.args.quiet).warnings
+        let found = looked.tell(name, source, self.args.quiet).warnings;
+        found + self.engine.warnings(self.scene).len()
     }
 
     /// Renders it.

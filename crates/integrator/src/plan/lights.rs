@@ -28,13 +28,15 @@ const CLEARANCE: f64 = 64.0 * f64::EPSILON;
 /// the distance of the nearest surface. The dimmest are left out for which all that, exposed, is
 /// together within a tenth of the error.
 pub(super) fn dropped(scene: &Scene, asked: &Asked) -> Vec<Dropped> {
+    let walls: Vec<(usize, &Plane)> = scene.shapes.iter().enumerate().filter_map(wall).collect();
     let mut dropped = Vec::new();
     let mut others = Vec::new();
     for (number, light) in scene.lights.iter().enumerate() {
         let why = if light.brightness().get() == 0.0 {
             Some(Reason::NoLight)
         } else {
-            scene.shapes.iter().position(|shape| hides(shape, scene, light)).map(Reason::Behind)
+            let wall = walls.iter().find(|(_, plane)| hides(plane, scene, light));
+            wall.map(|(shape, _)| Reason::Behind(*shape))
         };
         match why {
             Some(why) => dropped.push(Dropped { light: number, why, most: 0.0 }),
@@ -43,8 +45,10 @@ pub(super) fn dropped(scene: &Scene, asked: &Asked) -> Vec<Dropped> {
     }
     if let (Some(error), Some(factor)) = (asked.error, asked.factor) {
         let mut left = DIM_SHARE * error;
-        let mut dim: Vec<_> =
-            others.iter().map(|(number, light)| (factor * most(scene, light), *number)).collect();
+        let most = |(number, light): &(usize, &Light)| {
+            Some((factor * most(scene, light, left / factor)?, *number))
+        };
+        let mut dim: Vec<_> = others.iter().filter_map(most).collect();
         dim.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         for (most, light) in dim {
             // NaN is sorted last, and is more.
@@ -59,13 +63,18 @@ pub(super) fn dropped(scene: &Scene, asked: &Asked) -> Vec<Dropped> {
     dropped
 }
 
-/// Whether an opaque plane stands between the eye and a light.
-fn hides(shape: &Shape, scene: &Scene, light: &Light) -> bool {
-    let Geometry::Plane(plane) = &shape.geometry else { return false };
+/// An opaque plane, which is all that cuts space in two.
+fn wall((number, shape): (usize, &Shape)) -> Option<(usize, &Plane)> {
+    match &shape.geometry {
+        Geometry::Plane(plane) if !shape.surface.is_transparent() => Some((number, plane)),
+        _ => None,
+    }
+}
+
+/// Whether a plane stands between the eye and a light.
+fn hides(plane: &Plane, scene: &Scene, light: &Light) -> bool {
     // Parallel rays start anywhere on a plane of their own.
-    if shape.surface.is_transparent()
-        || matches!(scene.camera.projection, Projection::Orthographic(_))
-    {
+    if matches!(scene.camera.projection, Projection::Orthographic(_)) {
         return false;
     }
     let Some(normal) = unit(plane.normal.get()) else { return false };
@@ -94,24 +103,28 @@ fn side(plane: &Plane, normal: &Vector, centre: &Point, radius: f64) -> f64 {
     if distance.abs() > radius + rounding { distance } else { 0.0 }
 }
 
-/// The most that a light adds to a pixel's radiance.
-fn most(scene: &Scene, light: &Light) -> f64 {
+/// The most that a light adds to a pixel's radiance, if it may be no more than `bound`.
+fn most(scene: &Scene, light: &Light, bound: f64) -> Option<f64> {
     let brightness = light.brightness().get();
     match light {
-        Light::Sun { .. } => brightness,
-        Light::Lamp { point, radius, falloff, .. } | Light::Spot { point, radius, falloff, .. } => {
-            if *falloff == Falloff::None {
-                return brightness;
-            }
-            let distance = nearest(&scene.shapes, &scene.groups, &[], &point.get());
-            let radius = radius.map_or(0.0, Length::get);
-            if distance > radius { brightness / (distance * distance) } else { f64::INFINITY }
+        Light::Lamp { point, radius, falloff: Falloff::Square, .. }
+        | Light::Spot { point, radius, falloff: Falloff::Square, .. } => {
+            let near = (brightness / bound).sqrt().max(radius.map_or(0.0, Length::get));
+            let distance = nearest((&scene.shapes, &scene.groups), &[], &point.get(), near)?;
+            Some(brightness / (distance * distance))
         }
+        _ => (brightness <= bound).then_some(brightness),
     }
 }
 
-/// How far a point is from the nearest shape, at least, each taken for the box around it.
-fn nearest(shapes: &[Shape], groups: &[Placed], around: &[&Placement], point: &Point) -> f64 {
+/// How far a point is from the nearest shape, at least, each taken for the box around it; `None`
+/// as soon as that is within `near`.
+fn nearest(
+    (shapes, groups): (&[Shape], &[Placed]),
+    around: &[&Placement],
+    point: &Point,
+    near: f64,
+) -> Option<f64> {
     let of_shape = |shape: &Shape| match (figure::bounds(shape), &shape.geometry) {
         (Some(bounds), _) => {
             let outside = around.iter().rev().fold(bounds, |b, placement| placement.bounds(&b));
@@ -124,14 +137,18 @@ fn nearest(shapes: &[Shape], groups: &[Placed], around: &[&Placement], point: &P
         }
         _ => 0.0,
     };
-    let own = shapes.iter().map(of_shape).fold(f64::INFINITY, f64::min);
-    groups.iter().fold(own, |least, placed| {
-        // Not through more groups than are described: a million places are not looked at.
-        if least == 0.0 || around.len() >= MOST_LEVELS || groups.len() > MOST_GROUPS {
-            return 0.0;
-        }
+    let is_far = |distance: f64| (distance > near).then_some(distance);
+    let own = shapes
+        .iter()
+        .try_fold(f64::INFINITY, |least, shape| Some(least.min(is_far(of_shape(shape))?)))?;
+    // A million places are not looked at.
+    if !groups.is_empty() && (around.len() >= MOST_LEVELS || groups.len() > MOST_GROUPS) {
+        return None;
+    }
+    groups.iter().try_fold(own, |least, placed| {
         let around = [around, &[&placed.placement]].concat();
-        least.min(nearest(placed.group.shapes(), placed.group.groups(), &around, point))
+        let inside = (placed.group.shapes(), placed.group.groups());
+        Some(least.min(nearest(inside, &around, point, near)?))
     })
 }
 
