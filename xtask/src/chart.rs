@@ -25,17 +25,17 @@ const CHARTS: &[Chart] = &[
     Chart {
         name: "readme",
         about: "The README's scene with lamps that all the programs have",
-        words: "scenes/bench/readme-pareto.xml --size 800x600 --exposure 0 --threads 2 --finest 0.0004 --peers",
+        words: "scenes/bench/readme-pareto.xml --size 400x300 --exposure 0 --threads 2 --peers",
     },
     Chart {
-        name: "water_glass",
-        about: "Glass in water",
-        words: "scenes/water_glass.xml --size 400x300 --threads 2",
+        name: "glass",
+        about: "Glass",
+        words: "scenes/glass.xml --size 120x90 --threads 2 --finest 0.002",
     },
     Chart {
         name: "soft_shadow",
         about: "A lamp that is a ball",
-        words: "scenes/soft_shadow.xml --size 400x300 --threads 2 --finest 0.001",
+        words: "scenes/soft_shadow.xml --size 200x150 --threads 2 --finest 0.001",
     },
 ];
 

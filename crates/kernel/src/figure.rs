@@ -23,8 +23,9 @@ pub fn bounds(shape: &Shape) -> Option<Bounds> {
 #[must_use]
 pub fn encloses(shape: &Shape, point: &Point) -> bool {
     let may = |bounds: Bounds| bounds.contains(point);
-    shape.geometry.is_closed()
-        && bounds(shape).is_none_or(may)
+    // A mesh finds out by looking at all its edges: only where it matters.
+    bounds(shape).is_none_or(may)
+        && shape.geometry.is_closed()
         && primitive(&shape.geometry, &KernelSettings::default()).contains(point)
 }
 

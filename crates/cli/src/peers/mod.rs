@@ -65,7 +65,7 @@ impl fmt::Display for Setting {
         match self {
             Self::Centres => f.write_str("-A"),
             Self::Antialiased { threshold, method, depth } => {
-                write!(f, "+A{threshold} +AM{method} +R{depth}")
+                write!(f, "+A{threshold:?} +AM{method} +R{depth}")
             }
             Self::Samples { count, .. } => write!(f, "spp={count}"),
         }
@@ -198,6 +198,9 @@ mod tests {
     fn settings_are_written_as_users_write_them() {
         let setting = Setting::Antialiased { threshold: 0.03, method: 2, depth: 4 };
         assert_eq!(setting.to_string(), "+A0.03 +AM2 +R4");
+        // A whole number is none that POV-Ray takes.
+        let finest = Setting::Antialiased { threshold: 0.0, method: 1, depth: 9 };
+        assert_eq!(finest.to_string(), "+A0.0 +AM1 +R9");
         assert_eq!(Setting::Samples { count: 16, seed: 3 }.to_string(), "spp=16");
         assert_eq!(Setting::Centres.format(), Format::PovRay);
     }

@@ -43,7 +43,11 @@ pub(super) fn render(
     ]);
     match setting {
         Setting::Antialiased { threshold, method, depth } => {
-            command.args([format!("+A{threshold}"), format!("+AM{method}"), format!("+R{depth}")]);
+            command.args([
+                format!("+A{threshold:?}"),
+                format!("+AM{method}"),
+                format!("+R{depth}"),
+            ]);
             command.arg("-J");
         }
         Setting::Centres | Setting::Samples { .. } => {

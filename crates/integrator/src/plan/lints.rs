@@ -91,9 +91,13 @@ fn dark(scene: &Scene, facts: &Facts, plan: &Plan, lints: &mut Vec<Lint>) {
     }
 }
 
-/// The first opaque shape that a point is inside of.
+/// The first opaque shape that a point is inside of. Planes are none: they are seen from both sides.
 fn around(scene: &Scene, point: &Point) -> Option<usize> {
-    let is_around = |shape: &Shape| is_opaque_solid(shape) && figure::encloses(shape, point);
+    let is_around = |shape: &Shape| {
+        !matches!(shape.geometry, Geometry::Plane(_))
+            && !shape.surface.is_transparent()
+            && figure::encloses(shape, point)
+    };
     scene.shapes.iter().position(is_around)
 }
 
@@ -140,12 +144,6 @@ fn inside(scene: &Scene, around_eye: Option<usize>, lints: &mut Vec<Lint>) {
             ));
         }
     }
-}
-
-/// Planes are not: they are seen from both sides.
-fn is_opaque_solid(shape: &Shape) -> bool {
-    let is_plane = matches!(shape.geometry, Geometry::Plane(_));
-    !is_plane && !shape.surface.is_transparent() && shape.geometry.is_closed()
 }
 
 /// Along a side of the picture so many pixels are looked at.
@@ -206,7 +204,7 @@ fn enclosed(scene: &Scene, around_eye: Option<usize>, lints: &mut Vec<Lint>) {
     // Convex, so that what has its corners inside is inside.
     let convex = |shape: &Shape| {
         matches!(shape.geometry, Geometry::Sphere(_) | Geometry::Cuboid(_))
-            && is_opaque_solid(shape)
+            && !shape.surface.is_transparent()
     };
     let bounds: Vec<_> = shapes.iter().map(figure::bounds).collect();
     for (number, own) in bounds.iter().enumerate() {

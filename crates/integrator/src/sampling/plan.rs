@@ -4,9 +4,9 @@ use super::table::exponent;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// By which power of the number of samples the squared error falls, about: along an edge
-/// through evenly spread samples by 1.5, where they are independent by 1.
-const POWER: f64 = 1.35;
+/// By which power of the number of samples the squared error falls, about, as long as that is not
+/// known: along an edge through evenly spread samples by 1.5, where they are independent by 1.
+pub(super) const POWER: f64 = 1.35;
 
 /// Pixels with about the same expected error and the same number of samples.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -107,24 +107,31 @@ struct Candidate {
     /// What refining it takes away, and how many samples that takes.
     gain: f64,
     cost: f64,
+    /// By which power of the number of samples the squared error falls.
+    power: f64,
 }
 
 impl Candidate {
-    fn new(class: usize, doublings: u32, (samples, pixels, error): (f64, f64, f64)) -> Self {
+    fn new(
+        class: usize,
+        doublings: u32,
+        (samples, pixels, error): (f64, f64, f64),
+        power: f64,
+    ) -> Self {
         let (cost, factor) = if samples == 0.0 {
             (f64::from(SMOOTH_SAMPLES), SMOOTH_FACTOR)
         } else {
-            (samples, libm::exp2(-POWER))
+            (samples, libm::exp2(-power))
         };
         let (gain, cost) = (error * (1.0 - factor), cost * pixels);
-        Self { class, doublings, samples, pixels, error, gain, cost }
+        Self { class, doublings, samples, pixels, error, gain, cost, power }
     }
 
     fn after(&self) -> Self {
         let samples =
             if self.samples == 0.0 { f64::from(SMOOTH_SAMPLES) } else { 2.0 * self.samples };
         let left = (samples, self.pixels, self.error - self.gain);
-        Self::new(self.class, self.doublings + 1, left)
+        Self::new(self.class, self.doublings + 1, left, self.power)
     }
 }
 
@@ -151,13 +158,14 @@ impl Eq for Candidate {}
 
 /// The fewest samples by which the sum of squared errors falls to `target`, as far as is
 /// known: those first that take away most for a sample. `None` where nothing can be done.
-pub(super) fn plan(tally: &Tally, target: f64, most_samples: u32) -> Option<Plan> {
+pub(super) fn plan(tally: &Tally, target: f64, power: f64, most_samples: u32) -> Option<Plan> {
     let mut heap = BinaryHeap::new();
     for (at, class) in tally.classes.iter().enumerate() {
         let level = at / SIZES;
         let samples = if level == 0 { 0.0 } else { libm::exp2(level as f64 - 1.0) };
         if class.pixels > 0 && class.error > 0.0 {
-            heap.push(Candidate::new(at, 0, (samples, class.pixels as f64, class.error)));
+            let now = (samples, class.pixels as f64, class.error);
+            heap.push(Candidate::new(at, 0, now, power));
         }
     }
     let mut plan = Plan { steps: vec![Step::default(); tally.classes.len()], to_come: 0.0 };
@@ -226,14 +234,14 @@ mod tests {
             tally.take(4, 0.01);
             tally.take(4, 0.0001);
         }
-        let plan = plan(&tally, 0.8, 1 << 16).expect("there is something to do");
+        let plan = plan(&tally, 0.8, POWER, 1 << 16).expect("there is something to do");
         let [large, small] = [0.01, 0.0001].map(|error| class(4, error));
         assert_eq!(plan.samples(small, 4, || 0.0), 4);
         // 1.01 to 0.8 by what takes 0.58 of 1.0 away: a part of it.
         assert_eq!((plan.samples(large, 4, || 0.0), plan.samples(large, 4, || 0.99)), (8, 4));
         assert!((100.0..200.0).contains(&plan.to_come), "{}", plan.to_come);
-        assert!(super::plan(&tally, 1.1, 1 << 16).is_none());
-        assert!(super::plan(&tally, 0.8, 4).is_none());
+        assert!(super::plan(&tally, 1.1, POWER, 1 << 16).is_none());
+        assert!(super::plan(&tally, 0.8, POWER, 4).is_none());
     }
 
     #[test]

@@ -128,7 +128,9 @@ pub(super) fn refine(
             if wanted <= tile.standing[which].count {
                 continue;
             }
-            changed.push((at, which));
+            let known = &tile.refined[which];
+            let before = (known.count() >= 2).then(|| (known.count(), known.observed(exposure)));
+            changed.push((at, which, before));
             let place = tile.pixel(usize::from(tile.refined[which].index));
             let pixel = &mut tile.refined[which];
             if !spread.goes_on() {
@@ -148,9 +150,16 @@ pub(super) fn refine(
         }
     }
     batch.see(tiles, sampler, found);
-    for (tile, which) in changed {
+    for (tile, which, before) in changed {
         let tile = &mut tiles[tile];
         let pixel = &tile.refined[which];
+        if let Some((count, observed)) = before
+            && let times = pixel.count() / count
+            && times.is_power_of_two()
+            && times * count == pixel.count()
+        {
+            found.table.falls(observed, pixel, times.ilog2(), exposure);
+        }
         let (places, count) = (found.table.take(pixel, exposure), pixel.count());
         tile.standing[which] = Standing { places, count };
         if pixel.is_mixed {

@@ -3,7 +3,7 @@
 use super::control::Control;
 use super::finish::{Accuracy, Forecast};
 use super::first::Where;
-use super::plan::{Class, Plan, SMOOTH_SAMPLES, Tally, class, plan};
+use super::plan::{Class, POWER, Plan, SMOOTH_SAMPLES, Tally, class, plan};
 use super::refine::{Found, Spread, refine};
 use super::smooth::{Analysis, Neighbours, analyse};
 use super::table::{Expected, Table};
@@ -280,7 +280,8 @@ impl Picture {
                 continue;
             }
             let left = (allowed(target) - self.missed).max(0.0);
-            let Some(plan) = plan(&tally, left, Sampling::MOST) else {
+            let power = self.table.power(POWER);
+            let Some(plan) = plan(&tally, left, power, Sampling::MOST) else {
                 return (Why::MostSamples, forecast);
             };
             if let Some(progress) = job.progress {

@@ -17,8 +17,20 @@ const SIZES: usize = 42;
 /// halves has told.
 #[derive(Default)]
 pub(super) struct Table {
+    fall: Fall,
     /// A row of cells for each number of samples, as far as there are any.
     rows: [Option<Vec<Cell>>; LEVELS],
+}
+
+/// How much squared errors have fallen where numbers of samples were doubled: sums over pixels, in the
+/// units of cells.
+#[derive(Default, Clone, Copy)]
+struct Fall {
+    pixels: u64,
+    /// Doublings, each as often as the squared error before them.
+    doublings: u128,
+    before: u128,
+    after: u128,
 }
 
 #[derive(Clone, Copy)]
@@ -49,6 +61,12 @@ const FLAT: usize = 17;
 /// cells with a pixel or two such a pixel would be judged by itself alone, and believed. Those
 /// that look as flat with other scatters tell how often that is.
 const OF_ALL_FLAT: f64 = 16.0;
+
+/// From so many pixels the fall of errors is told.
+const ENOUGH: u64 = 200;
+/// Independent samples: 1. Evenly spread ones along an edge: 1.5.
+const SLOWEST: f64 = 1.0;
+const FASTEST: f64 = 1.5;
 
 const UNIT: f64 = 1_152_921_504_606_846_976.0; // 2^60
 
@@ -139,7 +157,33 @@ impl Table {
         })
     }
 
+    /// Takes in that a pixel of which that squared error was observed has had its number of
+    /// samples doubled, so often.
+    pub(super) fn falls(&mut self, before: f64, pixel: &Pixel, doublings: u32, exposure: f64) {
+        let whole = |observed: f64| u128::from((observed * UNIT) as u64);
+        let before = whole(before);
+        self.fall.pixels += 1;
+        self.fall.doublings += u128::from(doublings) * before;
+        self.fall.before += before;
+        self.fall.after += whole(pixel.observed(exposure));
+    }
+
+    /// By which power of the number of samples the squared error falls: what is seen of it, if that
+    /// is of enough pixels, or else `usual`.
+    pub(super) fn power(&self, usual: f64) -> f64 {
+        let Fall { pixels, doublings, before, after } = self.fall;
+        if pixels < ENOUGH || after == 0 || after >= before {
+            return usual;
+        }
+        let doublings = doublings as f64 / before as f64;
+        (libm::log2(before as f64 / after as f64) / doublings).clamp(SLOWEST, FASTEST)
+    }
+
     pub(super) fn add(&mut self, other: &Self) {
+        self.fall.pixels += other.fall.pixels;
+        self.fall.doublings += other.fall.doublings;
+        self.fall.before += other.fall.before;
+        self.fall.after += other.fall.after;
         for (row, other) in self.rows.iter_mut().zip(&other.rows) {
             let Some(other) = other else { continue };
             let row = row.get_or_insert_with(|| vec![Cell::EMPTY; SCATTERS]);
@@ -228,5 +272,76 @@ impl Expected {
         // Each half is judged by what the others of others were, so both are.
         let [a, b] = places.map(|place| self.0[usize::from(place)]);
         (a + b) / 2.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Seen, Stream};
+    use fastrand::Rng;
+
+    fn seen(value: f64) -> Seen {
+        Seen { radiance: [value as f32; 3], signature: 0 }
+    }
+
+    /// Pixels with four samples, and then with sixteen, of what `value` draws.
+    fn power(mut value: impl FnMut(Stream, u32) -> f64) -> f64 {
+        let mut table = Table::default();
+        for k in 0..2000 {
+            let mut pixel = Pixel::new(0, 0, [0.0; 3], 0.0);
+            let mut take = |pixel: &mut Pixel, indices: std::ops::Range<u32>| {
+                for half in 0..2 {
+                    let set = Stream::new(7, (k, 0), half, 0);
+                    indices.clone().for_each(|i| {
+                        pixel.add(half as usize, &[seen(value(set.at(i), k))], 0);
+                    });
+                }
+            };
+            take(&mut pixel, 0..2);
+            let before = pixel.observed(1.0);
+            take(&mut pixel, 2..8);
+            table.falls(before, &pixel, 2, 1.0);
+        }
+        table.power(0.0)
+    }
+
+    #[test]
+    fn the_fall_of_errors_is_that_of_what_is_sampled() {
+        let mut rng = Rng::with_seed(3);
+        let noise = power(|_, _| rng.f64());
+        assert!((1.0..1.1).contains(&noise), "{noise}");
+        // Slanted edges through the middle of the pixel.
+        let edges = power(|stream, k| {
+            let [u, v] = stream.pair(0);
+            let slope = f64::from(k % 97) / 97.0;
+            f64::from(u - 0.5 < slope * (v - 0.5))
+        });
+        assert!((1.3..=1.5).contains(&edges), "{edges}");
+        assert_eq!(Table::default().power(1.35), 1.35);
+    }
+
+    /// One that is alone with its look is judged by all that look flat.
+    #[test]
+    fn what_looks_flat_is_judged_by_all_that_does() {
+        let mut table = Table::default();
+        let mut pixel = |contrast: f32, [a, b]: [f64; 2]| {
+            let mut pixel = Pixel::new(0, 0, [0.0; 3], contrast);
+            pixel.add(0, &[seen(a)], 0);
+            pixel.add(1, &[seen(b)], 0);
+            table.take(&pixel, 1.0)
+        };
+        for k in 0..400 {
+            // One of a hundred was far off.
+            pixel(1e-6, [0.0, if k % 100 == 0 { 0.8 } else { 0.0 }]);
+        }
+        let alone = pixel(1e-9, [0.0; 2]);
+        let steep = pixel(0.3, [0.0; 2]);
+        let expected = table.expected();
+        // A hundredth of 0.8 squared over 4, for 16 of 18.
+        let right = 0.01 * 0.16 * 16.0 / 18.0;
+        assert!((expected.error(alone) / right - 1.0).abs() < 0.02, "{}", expected.error(alone));
+        assert!((expected.error(steep) - 0.5 / 2.0 / 3.0).abs() < 0.05);
+        assert!(table.largest().error(alone) > 2.0 * right);
     }
 }
