@@ -31,6 +31,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
                 ));
                 tally.errors += 1;
             }
+            let is_shown = tally.errors == 0;
             for warning in engine.warnings(scene) {
                 match &args.deny {
                     Some(_) => tally.errors += 1,
@@ -38,7 +39,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
                 }
                 report::say(format_args!("warning: {name}: {warning}"));
             }
-            if tally.errors == 0 {
+            if is_shown {
                 let plan = RenderSettings::default().plan(scene, engine);
                 let tracer = engine.prepare(scene, &plan);
                 let looked = Looked { scene, plan: &plan, tracer: &*tracer };

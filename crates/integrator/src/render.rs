@@ -57,6 +57,9 @@ impl RenderSettings<'_> {
     #[must_use]
     pub fn plan(&self, scene: &Scene, engine: &dyn Engine) -> Plan {
         let factor = match Showing::new(scene, engine, self) {
+            // The original's engines show glows of lights, and see through planes from behind: what
+            // is hidden for others may be seen by them.
+            Showing::Brightest if !self.full_model => return Plan::full(&self.kernel),
             Showing::Exposed(stops) => Some(exposure_factor(stops)),
             Showing::Brightest | Showing::AutoExposed => None,
         };

@@ -83,6 +83,19 @@ fn what_is_meant_is_not_told() {
     folder.run(&["render", &name, "-o", "a.ppm", "--deny", "lints"]).told();
 }
 
+/// The original's engines let light through planes.
+#[test]
+fn lights_are_hidden_for_engines_that_hide_them_alone() {
+    let folder = Folder::new();
+    let scene = scenes().join("two_suns.xml");
+    let path = scene.to_str().expect("plain letters");
+    let run = folder.run(&["check", path, "--engine", "classic", "--deny", "lints"]);
+    assert_eq!((run.code(), run.err()), (Some(0), String::new()));
+    let run = folder.run(&["check", path, "--deny", "lints"]);
+    assert!(run.err().contains("light 2 lights nothing that is seen"), "{}", run.err());
+    assert_eq!(run.code(), Some(1));
+}
+
 #[test]
 fn the_scenes_of_the_project_have_none() {
     let folder = Folder::new();
