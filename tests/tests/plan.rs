@@ -3,7 +3,7 @@
 
 use fastrand::Rng;
 use lancer_film::Film;
-use lancer_integrator::{RenderSettings, Sampling, Whitted, render};
+use lancer_integrator::{Reason, RenderSettings, Sampling, Whitted, render};
 use lancer_scene::{
     Camera, Colour, Exposure, InvalidField, Light, PixelCount, Scene, Shape, Spectrum, Stops,
     Surface,
@@ -65,14 +65,19 @@ fn random(rng: &mut Rng) -> Scene {
     let mut number = |from: f64, to: f64| from + (to - from) * rng.f64();
     let camera =
         Camera::new([0.0, -7.0, number(0.5, 4.0)], [0.0, -6.0, number(0.5, 3.0)], 1.2, [40, 30]);
+    let camera = match rng.u8(0..6) {
+        0 => camera.and_then(|camera| camera.orthographic(5.0)),
+        1 => camera.and_then(|camera| camera.aperture(0.5)),
+        _ => camera,
+    };
     let mut scene = Scene::builder().camera(camera);
     let surface = |rng: &mut Rng| -> Result<Surface, InvalidField> {
         let colour = Surface::new([Colour::WHITE, Colour::RED, Colour::GREY][rng.usize(0..3)]);
-        match rng.u8(0..6) {
-            0 => colour.gloss([0.1, 0.6, 1.0][rng.usize(0..3)]),
-            1 => Surface::glass(1.5),
-            2 => Ok(colour.checker(Colour::BLUE)),
-            3 => colour.emission([0.5, 0.1, 0.0]),
+        match rng.u8(0..20) {
+            0 | 1 => colour.gloss([0.1, 0.6, 1.0][rng.usize(0..3)]),
+            4 | 5 => Surface::glass(1.5),
+            6..9 => Ok(colour.checker(Colour::BLUE)),
+            9..12 => colour.emission([0.5, 0.1, 0.0]),
             _ => Ok(colour),
         }
     };
@@ -80,8 +85,17 @@ fn random(rng: &mut Rng) -> Scene {
         let look = if rng.bool() { Ok(Surface::new(Colour::WHITE)) } else { surface(rng) };
         scene = scene.shape(Shape::plane([0.0; 3], [0.0, 0.0, 1.0], look));
     }
-    for _ in 0..rng.usize(1..6) {
-        let at = [rng.f64() * 6.0 - 3.0, rng.f64() * 6.0 - 1.0, rng.f64() * 4.0 - 1.0];
+    // Now and then a flat mirror, across the view.
+    if rng.u8(0..4) == 0 {
+        let side = rng.f64() * 6.0 - 3.0;
+        let sides = [[2.0, side, 0.0], [0.0, rng.f64() - 0.5, 2.0]];
+        let look = Surface::new(Colour::WHITE).gloss(0.7);
+        scene = scene.shape(Shape::rectangle([-1.0, 3.0, 0.5], sides, look));
+    }
+    for number in 0..rng.usize(1..9) {
+        // From the fourth on also behind the eye and beside the view.
+        let (wide, back) = if number < 4 { (6.0, 1.0) } else { (20.0, 14.0) };
+        let at = [(rng.f64() - 0.5) * wide, rng.f64() * (5.0 + back) - back, rng.f64() * 4.0 - 1.0];
         let (size, look) = (0.2 + rng.f64(), surface(rng));
         scene = scene.shape(match rng.u8(0..3) {
             0 => Shape::cube(at, size, look),
@@ -96,7 +110,10 @@ fn random(rng: &mut Rng) -> Scene {
         let light = match rng.u8(0..5) {
             0 => Light::sun([0.3, 0.4, rng.f64() * 2.0 - 1.0], 0.1 * brightness),
             1 => Light::lamp(at, brightness).and_then(|lamp| lamp.with_radius(0.3)),
-            2 => Light::spot(at, [0.0, 0.5, -1.0], [20.0, 40.0], brightness),
+            2 => {
+                let axis = [rng.f64() - 0.5, rng.f64() - 0.5, rng.f64() - 0.7];
+                Light::spot(at, axis, [20.0, 40.0], brightness)
+            }
             3 => Light::lamp(at, 0.1 * brightness).map(Light::without_falloff),
             _ => Light::lamp(at, brightness),
         };
@@ -111,7 +128,7 @@ fn random(rng: &mut Rng) -> Scene {
 fn random_scenes_are_the_same_with_nothing_left_out() {
     let count = std::env::var("LANCER_SCENES").ok().and_then(|n| n.parse().ok()).unwrap_or(60);
     let stops = Some(Exposure::Stops(Stops::default()));
-    let (mut fewer, mut dim) = (0, 0);
+    let (mut fewer, mut dim, mut aside, mut absent) = (0, 0, 0, 0);
     for number in 0..count {
         let scene = random(&mut Rng::with_seed(number));
         let name = format!("scene {number}");
@@ -124,11 +141,15 @@ fn random_scenes_are_the_same_with_nothing_left_out() {
         let plan = settings.plan(&scene, &Whitted::default());
         fewer += u64::from(plan.dropped.iter().any(|dropped| dropped.most == 0.0));
         dim += u64::from(plan.most() > 0.0);
+        aside += u64::from(plan.dropped.iter().any(|dropped| dropped.why == Reason::Aside));
+        absent += u64::from(plan.absent.shapes.contains(&true));
         // As many samples as an error takes, which what is seen decides.
         if number % 8 == 0 {
             let sampling = Sampling { error: Some(0.02), ..Sampling::default() };
             check(&name, &scene, Some(sampling), None);
         }
     }
-    assert!(fewer > count / 4 && dim > count / 8, "{fewer} and {dim} of {count}");
+    let counts = format!("{fewer}, {dim}, {aside} and {absent} of {count}");
+    assert!(fewer > count / 4 && dim > count / 8, "{counts}");
+    assert!(aside > count / 20 && absent > count / 4, "{counts}");
 }

@@ -6,7 +6,8 @@ use crate::{Failure, fail, sections};
 use clap::Args;
 use lancer_film::{Size, exposure_factor};
 use lancer_integrator::{
-    Asked, Classic, Culling, Engine, KernelSettings, Plan, RayCounts, Rgb, TILE_SIDE, Whitted,
+    Absent, Asked, Classic, Culling, Engine, KernelSettings, Plan, RayCounts, Rgb, TILE_SIDE,
+    Whitted,
 };
 use lancer_scene::{Camera, Colour, InvalidField, Light, PixelCount, Scene, Shape, Surface};
 use lancer_tests::{generated, paths};
@@ -41,6 +42,7 @@ pub(crate) fn run(args: &PlanReportArgs) -> Result<(), Failure> {
     let subjects = subjects()?;
     let mut ways: Vec<(&str, Way)> = vec![("as planned, ms", Way::Planned)];
     ways.push(("lights that need not be asked", Way::AllLights));
+    ways.push(("shapes out of reach", Way::AllShapes));
     // Sorting is for large batches of rays, which pictures do not ask for.
     let switches = Culling::without_each().into_iter().filter(|(name, _)| *name != "sorted_rays");
     ways.extend(switches.map(|(name, culling)| (name, Way::Without(culling))));
@@ -73,6 +75,8 @@ enum Way {
     Planned,
     /// All but lights.
     AllLights,
+    /// All but shapes that no ray reaches.
+    AllShapes,
     Without(Culling),
     Full,
 }
@@ -84,7 +88,8 @@ impl Way {
         let kernel = |culling| KernelSettings { culling, ..KernelSettings::default() };
         match self {
             Self::Planned => Plan::new(scene, &asked),
-            Self::AllLights => Plan::full(&KernelSettings::default()),
+            Self::AllLights => Plan { dropped: Vec::new(), ..Plan::new(scene, &asked) },
+            Self::AllShapes => Plan { absent: Absent::NONE, ..Plan::new(scene, &asked) },
             Self::Without(culling) => Plan::new(scene, &Asked { kernel: kernel(culling), ..asked }),
             Self::Full => Plan::new(scene, &Asked { full_model: true, ..asked }),
         }
@@ -94,19 +99,17 @@ impl Way {
 /// The error that pictures are planned for.
 const ERROR: f64 = 0.0005;
 
-/// A cell for each way: milliseconds as planned, and how many times longer the others take.
+/// A cell for each way: milliseconds as planned, planning and making ready included, and how many
+/// times longer the others take.
 fn column(subject: &Subject, ways: &[(&str, Way)], runs: usize) -> Result<Vec<String>, Failure> {
-    let tracers: Vec<_> = ways
-        .iter()
-        .map(|(_, way)| subject.engine.prepare(&subject.scene, &way.plan(&subject.scene)))
-        .collect();
     let camera = &subject.scene.camera;
     let frame = Size::new(camera.px_width.get(), camera.px_height.get());
     let mut first: Option<Vec<Rgb>> = None;
     let most = Way::Planned.plan(&subject.scene).most();
-    let samples = in_turn(runs, &tracers, |tracer| {
+    let samples = in_turn(runs, ways, |(_, way)| {
         let mut pixels = Vec::with_capacity(frame.pixels() as usize);
         let (took, ()) = seconds(|| {
+            let tracer = subject.engine.prepare(&subject.scene, &way.plan(&subject.scene));
             let mut counts = RayCounts::default();
             let mut tile = [[0.0; 3]; (TILE_SIDE * TILE_SIDE) as usize];
             for window in frame.window().strips(TILE_SIDE, TILE_SIDE) {
@@ -150,6 +153,16 @@ fn subjects() -> Result<Vec<Subject>, Failure> {
                 std::iter::once(Light::lamp([2.0, -3.0, 5.0], 20.0)).chain(below).collect();
             room(&lights, 0.1)
         })?,
+        built("spots that look away", {
+            let away = (0..12).map(|k| {
+                let at = [f64::from(k) - 6.0, -7.0, 3.0];
+                Light::spot(at, [0.0, -1.0, 0.6], [10.0, 25.0], 30.0)
+            });
+            let lights: Vec<_> =
+                std::iter::once(Light::lamp([2.0, -3.0, 5.0], 20.0)).chain(away).collect();
+            room(&lights, 0.1)
+        })?,
+        built("shapes all around", all_around())?,
         built("dim lights", {
             let far = (0..20).map(|k| Light::lamp([f64::from(k), 0.0, 200.0], 0.01));
             let lights: Vec<_> =
@@ -186,4 +199,22 @@ fn room(
         scene = scene.shape(Shape::sphere([f64::from(k) - 2.0, 0.0, 0.5], 0.5, look()));
     }
     lights.iter().cloned().fold(scene, lancer_scene::SceneBuilder::light).build()
+}
+
+/// A hundred thousand balls and boxes on a floor, and the eye amid them.
+fn all_around() -> Result<Scene, lancer_scene::InvalidScene> {
+    let mut rng = fastrand::Rng::with_seed(6);
+    let camera = Camera::new([0.0, 0.0, 4.0], [0.0, 1.0, 3.8], 1.0, [400, 300]);
+    let look = || Surface::new(Colour::WHITE);
+    let mut scene = Scene::builder()
+        .camera(camera)
+        .light(Light::sun([0.3, 0.2, -1.0], 1.0))
+        .shape(Shape::plane([0.0; 3], [0.0, 0.0, 1.0], look()));
+    for _ in 0..50_000 {
+        let mut place = || 200.0 * rng.f64() - 100.0;
+        let (ball, cube) = ([place(), place(), 0.4], [place(), place(), 0.4]);
+        scene = scene.shape(Shape::sphere(ball, 0.4, look()));
+        scene = scene.shape(Shape::cube(cube, 0.8, look()));
+    }
+    scene.build()
 }

@@ -44,7 +44,7 @@ pub use classic::world::{Hit, SurfacePoint, World};
 pub use counts::{RayCounts, Trouble, Troubles};
 pub use direct::Direct;
 pub use engine::{Engine, Rgb, Tracer, engine_by_name, engines};
-pub use lancer_kernel::{Culling, KernelSettings, lanes::Width};
+pub use lancer_kernel::{Absent, Culling, KernelSettings, lanes::Width};
 pub use numbers::Stream;
 pub use plan::{About, Asked, Dropped, Facts, Lint, Part, Plan, Reason, lints};
 pub use ray_tree::{

@@ -1,7 +1,9 @@
 //! What can be told of a shape by itself, without rays.
 
 use crate::KernelSettings;
+use crate::primitive::Primitive;
 use crate::shapes::primitive;
+use crate::shapes::sphere::Ball;
 use lancer_math::{Bounds, Point};
 use lancer_scene::{Geometry, Shape};
 
@@ -15,6 +17,8 @@ pub fn bounds(shape: &Shape) -> Option<Bounds> {
             let (min, max) = mesh.bounds();
             Some(Bounds { min, max })
         }
+        // Often many: without memory of its own.
+        Geometry::Sphere(sphere) => Ball::new(sphere).bounds(),
         geometry => primitive(geometry, &KernelSettings::default()).bounds(),
     }
 }

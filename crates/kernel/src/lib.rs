@@ -93,7 +93,7 @@ use crossing::Crossing;
 pub mod lanes;
 pub use hit::{Hit, SurfacePoint};
 pub use listed::{Candidates, Goal, LaneHits, LanePoints, ListedShape};
-pub use prepared::{Prepared, Which, is_met_in_lanes};
+pub use prepared::{Absent, Prepared, Which, is_met_in_lanes};
 pub use rays::Rays;
 pub use settings::{Culling, KernelSettings};
 pub use shapes::sphere::LEAST_RADIUS;

@@ -133,11 +133,15 @@ pub(super) fn json(planned: &Planned<'_>) -> String {
             let (why, plane) = match dropped.why {
                 Reason::NoLight => ("no-light", None),
                 Reason::Behind(plane) => ("behind", Some(plane + 1)),
+                Reason::Aside => ("aside", None),
                 Reason::Dim => ("dim", None),
             };
             json!({"light": dropped.light + 1, "why": why, "plane": plane, "most": dropped.most})
         })
         .collect();
+    let marked = |marks: &[bool]| -> Vec<usize> {
+        (1..).zip(marks).filter(|(_, mark)| **mark).map(|(number, _)| number).collect()
+    };
     let around = facts.around.as_ref().map(|b| [b.min, b.max].map(|p| [p.x, p.y, p.z]));
     let value = json!({
         "scene": planned.name,
@@ -169,6 +173,7 @@ pub(super) fn json(planned: &Planned<'_>) -> String {
             "lanes": plan.kernel.lanes.name(),
             "shortcuts": shortcuts,
             "dropped_lights": dropped,
+            "absent": {"shapes": marked(&plan.absent.shapes), "groups": marked(&plan.absent.groups)},
             "most": plan.most(),
         },
         "parts": planned.parts.iter().map(|part| json!({

@@ -1,5 +1,7 @@
 //! Which lights need not be asked.
 
+use super::beams;
+use super::sight::Sight;
 use super::{Asked, Dropped, Reason};
 use lancer_kernel::figure;
 use lancer_math::{Placement, Point, Vector, unit};
@@ -22,12 +24,15 @@ const CLEARANCE: f64 = 64.0 * f64::EPSILON;
 /// the other side does not meet the plane. A sun whose light comes from behind such a plane is on the
 /// other side wherever one looks from.
 ///
+/// *Aside.* A spot gives no light outside of its beam, so one whose beam meets no shape that may be
+/// seen lights nothing that is ([`beams`]).
+///
 /// *Dim.* A white surface at the distance d from a lamp shows a radiance of at most its brightness
 /// over d^2 (its brightness, without falloff), for a ball too if it is outside. Of a pixel's rays the
 /// shares add up to 1 at most, so that is also the most that the lamp adds to a pixel, where d is
 /// the distance of the nearest surface. The dimmest are left out for which all that, exposed, is
 /// together within a tenth of the error.
-pub(super) fn dropped(scene: &Scene, asked: &Asked) -> Vec<Dropped> {
+pub(super) fn dropped(scene: &Scene, asked: &Asked, sight: &Sight<'_>) -> Vec<Dropped> {
     let walls: Vec<(usize, &Plane)> = scene.shapes.iter().enumerate().filter_map(wall).collect();
     let mut dropped = Vec::new();
     let mut others = Vec::new();
@@ -36,7 +41,8 @@ pub(super) fn dropped(scene: &Scene, asked: &Asked) -> Vec<Dropped> {
             Some(Reason::NoLight)
         } else {
             let wall = walls.iter().find(|(_, plane)| hides(plane, scene, light));
-            wall.map(|(shape, _)| Reason::Behind(*shape))
+            let behind = wall.map(|(shape, _)| Reason::Behind(*shape));
+            behind.or_else(|| beams::is_aside(scene, light, sight).then_some(Reason::Aside))
         };
         match why {
             Some(why) => dropped.push(Dropped { light: number, why, most: 0.0 }),

@@ -84,6 +84,11 @@ fn dark(scene: &Scene, facts: &Facts, plan: &Plan, lints: &mut Vec<Lint>) {
                 format!("light {number} gives no light"),
                 "make its brightness more than 0, or take it away".to_owned(),
             ),
+            Reason::Aside => (
+                format!("light {number}, a spot, lights nothing that is seen"),
+                "its beam meets no shape in view: turn its axis to one, or widen its angle"
+                    .to_owned(),
+            ),
             // That is as it should be.
             Reason::Dim => continue,
         };

@@ -5,17 +5,21 @@
 //! What it leaves out is left out by proof: it changes no bit of the picture, but for dim
 //! lights, which change it by no more than is stated. [`Plan::full`] leaves nothing out.
 
+mod beams;
 mod facts;
+mod half_space;
 mod lights;
 mod lints;
 mod parts;
+mod sight;
 
 pub use facts::Facts;
 pub use lints::{About, Lint, lints};
 pub use parts::Part;
 
-use lancer_kernel::{Culling, KernelSettings};
+use lancer_kernel::{Absent, Culling, KernelSettings};
 use lancer_scene::Scene;
+use sight::Sight;
 
 /// For what a picture is planned.
 #[derive(Debug, Clone, Copy, Default)]
@@ -39,6 +43,8 @@ pub struct Plan {
     pub kernel: KernelSettings,
     /// The lights that are not asked, in their order.
     pub dropped: Vec<Dropped>,
+    /// The shapes that no ray reaches.
+    pub absent: Absent,
 }
 
 /// A light that is not asked.
@@ -61,6 +67,8 @@ pub enum Reason {
     /// An opaque plane is between it and all that the eye sees: the scene's own shape of that
     /// number, from 0.
     Behind(usize),
+    /// Its beam meets nothing that may be seen.
+    Aside,
     /// It is too dim, or too far, to matter.
     Dim,
 }
@@ -73,13 +81,15 @@ impl Plan {
             let culling = Culling::NONE;
             return Self::full(&KernelSettings { culling, ..asked.kernel });
         }
-        Self { kernel: asked.kernel, dropped: lights::dropped(scene, asked) }
+        let sight = Sight::new(scene);
+        let dropped = lights::dropped(scene, asked, &sight);
+        Self { kernel: asked.kernel, absent: sight.absent(&dropped), dropped }
     }
 
     /// Nothing of the scene is left out.
     #[must_use]
     pub const fn full(kernel: &KernelSettings) -> Self {
-        Self { kernel: *kernel, dropped: Vec::new() }
+        Self { kernel: *kernel, dropped: Vec::new(), absent: Absent::NONE }
     }
 
     /// Whether the light of that number is asked.
@@ -95,5 +105,7 @@ impl Plan {
     }
 }
 
+#[cfg(test)]
+mod reach_tests;
 #[cfg(test)]
 mod tests;

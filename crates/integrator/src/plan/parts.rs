@@ -33,7 +33,10 @@ impl Plan {
     /// What runs, and what does not.
     #[must_use]
     pub fn parts(&self, scene: &Scene, facts: &Facts, engine: &Whitted) -> Vec<Part> {
-        let mut parts = vec![acceleration(scene, facts), lights(scene, self)];
+        let mut parts = vec![acceleration(scene, facts, self), lights(scene, self)];
+        if let Some(unreached) = unreached(scene, self) {
+            parts.push(unreached);
+        }
         if self.dropped.iter().any(|dropped| dropped.why == Reason::Dim) {
             let most = self.most();
             let why = "lights that are too dim or too far to matter are not asked";
@@ -94,8 +97,25 @@ fn placed(groups: u64) -> String {
     format!("{} placed, at most", count(groups, "group"))
 }
 
-fn acceleration(scene: &Scene, facts: &Facts) -> Part {
-    let is_direct = is_met_in_lanes(scene);
+/// What is not made ready, if that is anything.
+fn unreached(scene: &Scene, plan: &Plan) -> Option<Part> {
+    let marked = |marks: &[bool]| marks.iter().filter(|mark| **mark).count() as u64;
+    let (shapes, groups) = (marked(&plan.absent.shapes), marked(&plan.absent.groups));
+    let of = |number: u64, all: usize, what: &str| match number {
+        0 => None,
+        _ => Some(format!("{number} of {}", count(all as u64, what))),
+    };
+    let own = [of(shapes, scene.shapes.len(), "shape"), of(groups, scene.groups.len(), "group")];
+    let own: Vec<_> = own.into_iter().flatten().collect();
+    (!own.is_empty()).then(|| {
+        let why = "cannot be reached: not in view nor in a mirror, and not between what is seen and a \
+                   light, or behind an opaque plane";
+        Part::new("shapes out of reach", false, format!("{} {why}", own.join(" and ")))
+    })
+}
+
+fn acceleration(scene: &Scene, facts: &Facts, plan: &Plan) -> Part {
+    let is_direct = is_met_in_lanes(scene, &plan.absent);
     let why = if is_direct {
         "spheres and planes alone, and few: all are held against many rays at once".to_owned()
     } else {
@@ -123,6 +143,9 @@ fn lights(scene: &Scene, plan: &Plan) -> Part {
                 "; light {number} is behind plane {}, which hides it from all that the eye can see",
                 plane + 1
             ),
+            Reason::Aside => {
+                format!("; light {number}, a spot, has a beam that meets nothing that may be seen")
+            }
             Reason::Dim => {
                 format!("; light {number} adds at most {:.1e} of display white", dropped.most)
             }

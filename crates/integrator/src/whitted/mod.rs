@@ -16,7 +16,8 @@ mod view;
 use crate::{Engine, Plan, RayTree, Tracer};
 use lancer_film::Display;
 use lancer_kernel::{KernelSettings, LEAST_RADIUS};
-use lancer_scene::{Geometry, Group, InvalidField, OutOfRange, Placed, Scene, Shape};
+use lancer_math::Ray;
+use lancer_scene::{Camera, Geometry, Group, InvalidField, OutOfRange, Placed, Scene, Shape};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -88,6 +89,11 @@ impl Whitted {
     ) -> RayTree {
         tracer::WhittedTracer::new(scene, self.cutoff, &Plan::full(kernel)).explain(scene, pixel)
     }
+}
+
+/// Rays of which all that a camera sends are made, as [`View::outermost`](view::View::outermost) has it.
+pub(crate) fn outermost_rays(camera: &Camera) -> Vec<Ray> {
+    view::View::new(camera).outermost()
 }
 
 impl Default for Whitted {

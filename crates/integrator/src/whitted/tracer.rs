@@ -132,7 +132,7 @@ struct Sum<'a, N> {
 impl WhittedTracer {
     pub(super) fn new(scene: &Scene, cutoff: f64, plan: &Plan) -> Self {
         let view = View::new(&scene.camera);
-        let prepared = Prepared::with(scene, &plan.kernel);
+        let prepared = Prepared::without(scene, &plan.kernel, &plan.absent);
         let around_eye =
             view.eye().map_or_else(Media::default, |eye| Media::new(prepared.solids_at(&eye)));
         Self {

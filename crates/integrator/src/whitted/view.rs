@@ -100,6 +100,37 @@ impl View {
         Ray::new(start + off, unit(to_sharp - off).unwrap_or(self.axis))
     }
 
+    /// Rays of which all others are made: each starts between the points where these do, and its
+    /// direction is a sum of theirs with weights that are not negative. They are of the corners of
+    /// the frame, a pixel off, and of a square around the lens.
+    pub(super) fn outermost(&self) -> Vec<Ray> {
+        let radius = self.lens.map_or(0.0, |lens| lens.radius);
+        let offsets: &[(f64, f64)] = match self.lens {
+            None => &[(0.0, 0.0)],
+            Some(_) => &[(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)],
+        };
+        let focus = self.lens.map_or(1.0, |lens| lens.focus);
+        let mut rays = Vec::new();
+        for (x, y) in [-1.0, self.px_width + 1.0]
+            .into_iter()
+            .flat_map(|x| [-1.0, self.px_height + 1.0].map(|y| (x, y)))
+        {
+            let sideward = self.right * ((2.0 * x - self.px_width) * self.half_pixel);
+            let upward = self.up * ((self.px_height - 2.0 * y) * self.half_pixel);
+            let aside = sideward + upward;
+            for (a, b) in offsets {
+                let off = self.right * (a * radius) + self.up * (b * radius);
+                rays.push(if self.is_parallel {
+                    let direction = self.ahead * focus - off;
+                    Ray::new(self.origin + aside + off, direction)
+                } else {
+                    Ray::new(self.origin + off, (self.ahead + aside) * focus - off)
+                });
+            }
+        }
+        rays
+    }
+
     /// Whether there is a lens.
     pub(super) const fn has_lens(&self) -> bool {
         self.lens.is_some()

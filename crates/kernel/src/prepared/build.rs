@@ -1,5 +1,6 @@
 //! From the description of a scene to its spaces.
 
+use super::Absent;
 use super::balls::{Given, Spheres};
 use super::looks::{Look, Looks};
 use super::planes::Planes;
@@ -13,7 +14,7 @@ use crate::shapes::primitive;
 use crate::shapes::sphere::{Ball, LEAST_RADIUS};
 use lancer_math::{Bounds, Placement};
 use lancer_scene::{Geometry, Group, Mesh, Placed, Scene, Shape};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, btree_map};
 use std::sync::Arc;
 
 /// Everything that is prepared of a scene.
@@ -26,9 +27,11 @@ pub(super) struct Built {
     pub(super) bytes: usize,
 }
 
-pub(super) fn build(scene: &Scene, settings: &KernelSettings) -> Built {
+pub(super) fn build(scene: &Scene, settings: &KernelSettings, absent: &Absent) -> Built {
     let mut builder = Builder { settings: *settings, ..Builder::default() };
-    let root = builder.space(&scene.shapes, &scene.groups);
+    let mut shape_count = scene.shapes.len() as u32;
+    number(&scene.groups, &mut shape_count, &mut builder.firsts);
+    let root = builder.space(0, (&scene.shapes, &scene.groups), absent);
     let Builder { spaces, looks, meshes, .. } = builder;
     let looks = looks.finish();
     let bytes = root.bytes()
@@ -38,36 +41,53 @@ pub(super) fn build(scene: &Scene, settings: &KernelSettings) -> Built {
     Built { root, spaces, looks, bytes }
 }
 
+/// The number of the first shape of each group. Shapes are numbered as a reader meets them: those
+/// of a group before those of groups in it, and each group where it stands first.
+fn number(groups: &[Placed], shape_count: &mut u32, firsts: &mut BTreeMap<*const Group, u32>) {
+    for Placed { group, .. } in groups {
+        if let btree_map::Entry::Vacant(new) = firsts.entry(Arc::as_ptr(group)) {
+            new.insert(*shape_count);
+            *shape_count = shape_count.saturating_add(group.shapes().len() as u32);
+            number(group.groups(), shape_count, firsts);
+        }
+    }
+}
+
 #[derive(Default)]
 struct Builder {
     settings: KernelSettings,
     spaces: Vec<Space>,
     looks: Looks,
-    /// How many shapes of the description have been numbered.
-    shape_count: u32,
-    /// The spaces of groups, and the meshes, by address: only looked up, never
+    /// The numbers of groups' first shapes, the spaces of groups, and the meshes, by address: only looked up, never
     /// walked, so that no address decides an order.
+    firsts: BTreeMap<*const Group, u32>,
     known: BTreeMap<*const Group, u32>,
     meshes: BTreeMap<*const Mesh, Arc<Facets>>,
 }
 
 impl Builder {
-    /// Shapes are numbered as a reader meets them: those of a group before those
-    /// of groups in it, and each group where it stands first.
-    fn space(&mut self, shapes: &[Shape], groups: &[Placed]) -> Space {
-        let first_shape = self.shape_count;
-        self.shape_count = self.shape_count.saturating_add(shapes.len() as u32);
+    fn space(
+        &mut self,
+        first_shape: u32,
+        (shapes, groups): (&[Shape], &[Placed]),
+        absent: &Absent,
+    ) -> Space {
         let looks: Vec<u32> =
             shapes.iter().map(|shape| self.looks.number(&shape.surface)).collect();
         let mut parts = Parts::default();
         for (i, shape) in (0..).zip(shapes) {
-            self.shape(i, shape, &mut parts);
+            if !absent.has_shape(i as usize) {
+                self.shape(i, shape, &mut parts);
+            }
         }
         let mut item_count = shapes.len() as u32;
-        for placed in groups.iter().filter(|placed| placed.group.shape_count() > 0) {
-            let space = self.group(&placed.group);
-            parts.stand(placed, space, &self.spaces[space as usize], item_count);
-            item_count = item_count.saturating_add(self.spaces[space as usize].item_count);
+        for (i, placed) in groups.iter().enumerate() {
+            let count = placed.group.shape_count();
+            if count > 0 && !absent.has_group(i) {
+                let space = self.group(&placed.group);
+                parts.stand(placed, space, &self.spaces[space as usize], item_count);
+            }
+            item_count = item_count.saturating_add(u32::try_from(count).unwrap_or(u32::MAX));
         }
         parts.finish(first_shape, &looks, item_count)
     }
@@ -76,7 +96,8 @@ impl Builder {
         if let Some(&space) = self.known.get(&Arc::as_ptr(group)) {
             return space;
         }
-        let space = self.space(group.shapes(), group.groups());
+        let first = self.firsts[&Arc::as_ptr(group)];
+        let space = self.space(first, (group.shapes(), group.groups()), &Absent::NONE);
         self.spaces.push(space);
         let number = (self.spaces.len() - 1) as u32;
         self.known.insert(Arc::as_ptr(group), number);

@@ -2,7 +2,7 @@
 
 use super::build::is_finite;
 use super::walk::{Known, Quest};
-use super::{Any, Nearest, Prepared, Question, Which};
+use super::{Absent, Any, Nearest, Prepared, Question, Which};
 use crate::lanes::{Lanes, MOST, Mask, Real, Work, lanes_of};
 use crate::listed::{Candidates, Goal, LaneHits, Listed, ListedShape, MOST_LISTED};
 use crate::primitive::Primitive;
@@ -15,23 +15,29 @@ use lancer_scene::{Geometry, Scene, Shape};
 /// More spheres than these are met by one ray at a time, many spheres at once.
 const MOST_SPHERES: usize = 16;
 
-/// Whether all shapes of a scene are few enough, and simple enough, to be held against whole
-/// registers of rays, so that there is no hierarchy of boxes.
+/// Whether all shapes of a scene that are there are few enough, and simple enough, to be held
+/// against whole registers of rays, so that there is no hierarchy of boxes.
 #[must_use]
-pub fn is_met_in_lanes(scene: &Scene) -> bool {
+pub fn is_met_in_lanes(scene: &Scene, absent: &Absent) -> bool {
     let count = |is_one: fn(&Geometry) -> bool| {
-        scene.shapes.iter().filter(|shape| is_one(&shape.geometry)).count()
+        present(&scene.shapes, absent).filter(|(_, shape)| is_one(&shape.geometry)).count()
     };
     let spheres = count(|geometry| matches!(geometry, Geometry::Sphere(_)));
     let planes = count(|geometry| matches!(geometry, Geometry::Plane(_)));
-    spheres + planes == scene.shapes.len()
-        && scene.groups.is_empty()
+    spheres + planes == count(|_| true)
+        && (0..scene.groups.len()).all(|group| absent.has_group(group))
         && spheres <= MOST_SPHERES
         && planes <= MOST_LISTED
 }
 
+/// The shapes that are there, with their numbers.
+fn present<'a>(shapes: &'a [Shape], absent: &'a Absent) -> impl Iterator<Item = (u32, &'a Shape)> {
+    let is_there = |(number, _): &(u32, _)| !absent.has_shape(*number as usize);
+    (0..).zip(shapes).filter(is_there)
+}
+
 /// A scene's own spheres and its planes, each kind if it is few, and which are.
-pub(super) fn listed(shapes: &[Shape]) -> (Listed, Known) {
+pub(super) fn listed(shapes: &[Shape], absent: &Absent) -> (Listed, Known) {
     let ball = |shape: &Shape| match &shape.geometry {
         Geometry::Sphere(sphere) => {
             let ball = Ball::new(sphere);
@@ -44,12 +50,13 @@ pub(super) fn listed(shapes: &[Shape]) -> (Listed, Known) {
         _ => None,
     };
     let few = |count: usize, most: usize| count <= most;
+    let there = || present(shapes, absent).map(|(_, shape)| shape);
     let known = Known {
-        spheres: few(shapes.iter().filter_map(ball).take(MOST_SPHERES + 1).count(), MOST_SPHERES),
-        planes: few(shapes.iter().filter_map(plane).take(MOST_LISTED + 1).count(), MOST_LISTED),
+        spheres: few(there().filter_map(ball).take(MOST_SPHERES + 1).count(), MOST_SPHERES),
+        planes: few(there().filter_map(plane).take(MOST_LISTED + 1).count(), MOST_LISTED),
     };
     let mut listed = Listed::default();
-    for (item, shape) in (0..).zip(shapes) {
+    for (item, shape) in present(shapes, absent) {
         let is_transparent = shape.surface.is_transparent();
         if known.spheres
             && let Some(ball) = ball(shape)

@@ -1,3 +1,4 @@
+mod absent;
 mod balls;
 mod batch;
 mod build;
@@ -9,6 +10,7 @@ mod quests;
 mod space;
 mod walk;
 
+pub use absent::Absent;
 pub use in_lanes::is_met_in_lanes;
 
 use crate::lanes::{Lanes, Work, dispatch};
@@ -75,8 +77,14 @@ impl Prepared {
     /// say.
     #[must_use]
     pub fn with(scene: &Scene, settings: &KernelSettings) -> Self {
-        let build::Built { root, spaces, looks, bytes } = build::build(scene, settings);
-        let (listed, listed_kinds) = in_lanes::listed(&scene.shapes);
+        Self::without(scene, settings, &Absent::NONE)
+    }
+
+    /// The same but for some shapes, which no ray will reach.
+    #[must_use]
+    pub fn without(scene: &Scene, settings: &KernelSettings, absent: &Absent) -> Self {
+        let build::Built { root, spaces, looks, bytes } = build::build(scene, settings, absent);
+        let (listed, listed_kinds) = in_lanes::listed(&scene.shapes, absent);
         Self { root, spaces, looks, listed, listed_kinds, bytes, settings: *settings }
     }
 
