@@ -7,6 +7,7 @@ mod chart;
 mod docs;
 mod gallery;
 mod goldens;
+mod lean;
 mod plan_report;
 mod sections;
 mod stability;
@@ -48,6 +49,8 @@ enum Command {
     Chart(chart::ChartArgs),
     /// Measure what each rule of a plan saves (build with --release)
     PlanReport(plan_report::PlanReportArgs),
+    /// Measure what a scene pays for what it does not use, against a build without that
+    Lean(lean::LeanArgs),
 }
 
 /// Why a chore was not done.
@@ -71,6 +74,7 @@ fn main() -> ExitCode {
         Command::Calibrate(args) => calibrate::run(&args),
         Command::Chart(args) => chart::run(&args),
         Command::PlanReport(args) => plan_report::run(&args),
+        Command::Lean(args) => lean::run(&args),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

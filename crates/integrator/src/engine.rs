@@ -1,5 +1,6 @@
 use crate::{Classic, Direct, Plan, RayCounts, Sampler, TILE_SIDE, Whitted};
 use lancer_film::{Display, LayerPixel, Window};
+use lancer_kernel::LEAN;
 use lancer_scene::Scene;
 
 /// Red, green and blue in the unit of the film's [`Display`].
@@ -78,7 +79,7 @@ pub trait Tracer: Sync {
 #[must_use]
 pub fn engines() -> &'static [&'static dyn Engine] {
     const WHITTED: Whitted = Whitted::new();
-    &[&WHITTED, &Classic, &Direct]
+    if LEAN { &[&WHITTED] } else { &[&WHITTED, &Classic, &Direct] }
 }
 
 /// The built-in engine of that name.

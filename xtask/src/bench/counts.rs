@@ -52,7 +52,7 @@ pub(super) fn run(bless: bool, reason: Option<&str>) -> Result<(), Failure> {
         println!("instruction counts: not checked: {why}");
         return Ok(());
     }
-    let program = process::program()?;
+    let program = process::program(process::Build::Whole)?;
     let mut counts = Vec::new();
     for (scene, engine, size) in RENDERS {
         for lanes in LANES {

@@ -10,7 +10,7 @@ pub(crate) mod machine;
 pub(crate) mod page;
 mod peers;
 mod pictures;
-mod process;
+pub(crate) mod process;
 mod python;
 mod rays;
 mod scaling;

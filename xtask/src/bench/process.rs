@@ -11,10 +11,26 @@ use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// The program as users have it, built anew where it is not up to date.
-pub(super) fn program() -> Result<PathBuf, Failure> {
+/// What is in the program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Build {
+    /// All, as users have it.
+    Whole,
+    /// As [`lancer_kernel::LEAN`] has it.
+    Lean,
+}
+
+/// The program, built anew where it is not up to date.
+pub(crate) fn program(build: Build) -> Result<PathBuf, Failure> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let mut build = Command::new(cargo)
+    let mut command = Command::new(cargo);
+    if build == Build::Lean {
+        // In a folder of its own, so that neither build undoes the other.
+        let flags = std::env::var("RUSTFLAGS").unwrap_or_default() + " --cfg lancer_lean";
+        command.env("RUSTFLAGS", flags);
+        command.env("CARGO_TARGET_DIR", paths::top().join("target/lean"));
+    }
+    let mut build = command
         .args(["build", "--release", "--locked", "--package", "lancer", "--bin", "lancer"])
         .args(["--message-format", "json-render-diagnostics"])
         .current_dir(paths::top())
@@ -51,7 +67,7 @@ struct Stages {
 
 /// Adds what the whole process takes.
 pub(super) fn measure(section: &mut Section, runs: usize) -> Result<(), Failure> {
-    let program = program()?;
+    let program = program(Build::Whole)?;
     let folder = tempfile::tempdir().map_err(fail)?;
     let lanes: Vec<_> =
         ["avx2", "avx512"].iter().filter_map(|name| Width::by_name(name).ok()).collect();
@@ -103,16 +119,19 @@ fn one(
     if !status.map_err(fail)?.success() {
         return Err(fail("the program fails"));
     }
-    let stats = std::fs::read(stats).map_err(fail)?;
-    let stats: serde_json::Value = serde_json::from_slice(&stats).map_err(fail)?;
-    let stage = |name: &str| {
-        let seconds = stats["seconds"][name].as_f64();
-        seconds.ok_or_else(|| fail(format_args!("the statistics do not tell the time of {name}")))
-    };
-    let [render, encode, write] = [stage("render")?, stage("encode")?, stage("write")?];
+    let [render, encode, write] =
+        [stage(&stats, "render")?, stage(&stats, "encode")?, stage(&stats, "write")?];
     stages.render.push(render);
     stages.encode.push(encode);
     stages.write.push(write);
     stages.rest.push(seconds - render - encode - write);
     Ok(seconds)
+}
+
+/// The seconds that a stage took, as statistics tell them.
+pub(crate) fn stage(stats: &Path, name: &str) -> Result<f64, Failure> {
+    let stats = std::fs::read(stats).map_err(fail)?;
+    let stats: serde_json::Value = serde_json::from_slice(&stats).map_err(fail)?;
+    let seconds = stats["seconds"][name].as_f64();
+    seconds.ok_or_else(|| fail(format_args!("the statistics do not tell the time of {name}")))
 }

@@ -6,7 +6,7 @@ use super::signature::{self, Signing, Spot, Way};
 use super::stops::Stops;
 use super::tracer::{Place, Rgb64, Task, times};
 use crate::{Plan, RayCounts};
-use lancer_kernel::{Prepared, SurfacePoint, Which};
+use lancer_kernel::{Prepared, SurfacePoint, Which, not_lean};
 use lancer_math::{Point, Ray, Vector, sin_cos_degrees, unit};
 use lancer_scene::{Beam, Falloff, Length, Light, Position, Scene, Shadows};
 
@@ -203,6 +203,9 @@ impl Lights {
     pub(super) fn new(scene: &Scene, plan: &Plan) -> Self {
         let source = |(number, light): (usize, &Light)| {
             let marks = [2 * number, 2 * number + 1].map(|mark| signature::mark(mark as u64));
+            if !matches!(light, Light::Lamp { radius: None, .. }) {
+                not_lean();
+            }
             match light {
                 Light::Lamp { point, radius, brightness, falloff } => Source {
                     number,

@@ -10,7 +10,7 @@ use crate::{
     MOST_SAMPLES, Plan, RayCounts, RayFate, RayKind, RayTree, Rgb, Sample, Sampler, Stream, Tracer,
 };
 use lancer_film::{LayerPixel, Window};
-use lancer_kernel::{KernelSettings, Prepared, SurfacePoint};
+use lancer_kernel::{KernelSettings, LEAN, Prepared, SurfacePoint};
 use lancer_math::{Ray, Vector};
 use lancer_scene::Scene;
 use std::cmp::Ordering;
@@ -269,7 +269,7 @@ impl WhittedTracer {
         };
         let share = times(share, transmittance(&here, hit.t));
         sum.notes.note(|record| record.meets(share, hit.t));
-        if !self.prepared.surface(hit.item).is_transparent() {
+        if LEAN || !self.prepared.surface(hit.item).is_transparent() {
             let point = self.prepared.expand(&ray, &hit);
             let at = Pending { ray, share, media, depth, number, kind, way };
             return self.opaque::<S>(&point, 0.0, at, sum);

@@ -2,6 +2,7 @@ use super::tile::units;
 use crate::Stream;
 use crate::disc::in_disc;
 use lancer_kernel::lanes::{Lanes, Vectors};
+use lancer_kernel::{LEAN, not_lean};
 use lancer_math::{Point, Ray, Vector, sin_cos_degrees, unit};
 use lancer_scene::{Camera, Projection};
 
@@ -57,6 +58,9 @@ impl View {
             },
         });
         let (px_width, px_height) = (camera.px_width.get(), camera.px_height.get());
+        if is_parallel || lens.is_some() {
+            not_lean();
+        }
         Self {
             origin,
             ahead,
@@ -76,7 +80,7 @@ impl View {
     pub(super) fn ray(&self, x: f64, y: f64) -> Ray {
         let sideward = self.right * ((2.0 * x - self.px_width) * self.half_pixel);
         let upward = self.up * ((self.px_height - 2.0 * y) * self.half_pixel);
-        if self.is_parallel {
+        if self.is_parallel() {
             return Ray::new(self.origin + (sideward + upward), self.ahead);
         }
         let direction = self.ahead + (sideward + upward);
@@ -86,13 +90,13 @@ impl View {
     /// The ray of a place of the picture through the point of the lens, if there is one, that
     /// a sample's numbers draw.
     pub(super) fn ray_of_sample(&self, [x, y]: [f64; 2], stream: Stream) -> Ray {
-        let Some(lens) = &self.lens else { return self.ray(x, y) };
+        let Some(lens) = self.lens.as_ref().filter(|_| !LEAN) else { return self.ray(x, y) };
         let [a, b] = in_disc(stream.pair(1)).map(|c| c * lens.radius);
         let off = self.right * a + self.up * b;
         let sideward = self.right * ((2.0 * x - self.px_width) * self.half_pixel);
         let upward = self.up * ((self.px_height - 2.0 * y) * self.half_pixel);
         let aside = sideward + upward;
-        let (start, to_sharp) = if self.is_parallel {
+        let (start, to_sharp) = if self.is_parallel() {
             (self.origin + aside, self.ahead * lens.focus)
         } else {
             (self.origin, (self.ahead + aside) * lens.focus)
@@ -120,7 +124,7 @@ impl View {
             let aside = sideward + upward;
             for (a, b) in offsets {
                 let off = self.right * (a * radius) + self.up * (b * radius);
-                rays.push(if self.is_parallel {
+                rays.push(if self.is_parallel() {
                     let direction = self.ahead * focus - off;
                     Ray::new(self.origin + aside + off, direction)
                 } else {
@@ -133,7 +137,11 @@ impl View {
 
     /// Whether there is a lens.
     pub(super) const fn has_lens(&self) -> bool {
-        self.lens.is_some()
+        !LEAN && self.lens.is_some()
+    }
+
+    const fn is_parallel(&self) -> bool {
+        !LEAN && self.is_parallel
     }
 
     /// Rays without a lens for several places: a lane has the bits of [`ray`](Self::ray).
@@ -152,7 +160,7 @@ impl View {
         let half = lanes.splat(self.half_pixel);
         let sideward = right * ((x * 2.0 - self.px_width) * half);
         let upward = up * ((lanes.splat(self.px_height) - y * 2.0) * half);
-        if self.is_parallel {
+        if self.is_parallel() {
             return (origin + (sideward + upward), ahead);
         }
         (origin, units(lanes, &(ahead + (sideward + upward)), &axis))
@@ -160,7 +168,7 @@ impl View {
 
     /// Where all rays start; `None` for parallel ones and for those of a lens.
     pub(super) fn eye(&self) -> Option<Point> {
-        (!self.is_parallel && self.lens.is_none()).then_some(self.origin)
+        (!self.is_parallel() && !self.has_lens()).then_some(self.origin)
     }
 
     /// The direction of the middle of the picture, of length 1.

@@ -7,6 +7,7 @@ use super::planes::Planes;
 use super::space::{Entry, Holds, Kept, Kind, Other, Own, Size, Space, Stand, norms};
 use crate::KernelSettings;
 use crate::hierarchy::Hierarchy;
+use crate::lean::not_lean;
 use crate::primitive::Primitive;
 use crate::shapes::mesh::Facets;
 use crate::shapes::plane::HalfSpace;
@@ -93,6 +94,7 @@ impl Builder {
     }
 
     fn group(&mut self, group: &Arc<Group>) -> u32 {
+        not_lean();
         if let Some(&space) = self.known.get(&Arc::as_ptr(group)) {
             return space;
         }
@@ -125,6 +127,7 @@ impl Builder {
         let is_met = !matches!(&shape.geometry, Geometry::Sphere(sphere) if sphere.radius.get() < LEAST_RADIUS);
         let primitive = match &shape.geometry {
             Geometry::Mesh(mesh) => {
+                not_lean();
                 let known = self.meshes.entry(Arc::as_ptr(mesh));
                 let facets = known.or_insert_with(|| Arc::new(Facets::new(mesh, &self.settings)));
                 Kind::Mesh(Arc::clone(facets))

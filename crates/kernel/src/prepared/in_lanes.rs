@@ -1,6 +1,7 @@
 //! Whole registers of rays against a scene whose own spheres and planes are few.
 
 use super::build::is_finite;
+use super::space::Space;
 use super::walk::{Known, Quest};
 use super::{Absent, Any, Nearest, Prepared, Question, Which};
 use crate::lanes::{Lanes, MOST, Mask, Real, Work, lanes_of};
@@ -8,7 +9,7 @@ use crate::listed::{Candidates, Goal, LaneHits, Listed, ListedShape, MOST_LISTED
 use crate::primitive::Primitive;
 use crate::shapes::plane::HalfSpace;
 use crate::shapes::sphere::Ball;
-use crate::{Hit, Rays};
+use crate::{Hit, LEAN, Rays};
 use lancer_math::{Point, Ray, Vector};
 use lancer_scene::{Geometry, Scene, Shape};
 
@@ -71,6 +72,12 @@ pub(super) fn listed(shapes: &[Shape], absent: &Absent) -> (Listed, Known) {
     (listed, known)
 }
 
+/// Whether there is nothing in a space but those kinds of shapes.
+#[inline(always)]
+pub(super) fn is_all(space: &Space, Known { spheres, planes }: Known) -> bool {
+    spheres && planes && space.bounded.is_empty() && space.unbounded.is_empty()
+}
+
 impl Prepared {
     pub(crate) const fn listed(&self) -> &Listed {
         &self.listed
@@ -78,9 +85,7 @@ impl Prepared {
 
     /// Whether there is nothing but what is met in lanes.
     fn lists_all(&self) -> bool {
-        let Known { spheres, planes } = self.listed_kinds;
-        let root = &self.root;
-        spheres && planes && root.bounded.is_empty() && root.unbounded.is_empty()
+        LEAN || is_all(&self.root, self.listed_kinds)
     }
 
     /// The nearest hits with 0 < t < `t_max` of the `asked` rays of a register; for

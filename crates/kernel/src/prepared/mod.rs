@@ -15,7 +15,7 @@ pub use in_lanes::is_met_in_lanes;
 
 use crate::lanes::{Lanes, Work, dispatch};
 use crate::listed::Listed;
-use crate::{Hit, KernelSettings};
+use crate::{Hit, KernelSettings, LEAN, not_lean};
 use lancer_math::Ray;
 use lancer_scene::Scene;
 use looks::Look;
@@ -85,6 +85,9 @@ impl Prepared {
     pub fn without(scene: &Scene, settings: &KernelSettings, absent: &Absent) -> Self {
         let build::Built { root, spaces, looks, bytes } = build::build(scene, settings, absent);
         let (listed, listed_kinds) = in_lanes::listed(&scene.shapes, absent);
+        if root.holds.transparent || !in_lanes::is_all(&root, listed_kinds) {
+            not_lean();
+        }
         Self { root, spaces, looks, listed, listed_kinds, bytes, settings: *settings }
     }
 
@@ -98,7 +101,7 @@ impl Prepared {
     /// Whether any of them lets light through.
     #[must_use]
     pub const fn has_transparent(&self) -> bool {
-        self.root.holds.transparent
+        !LEAN && self.root.holds.transparent
     }
 
     /// The error of the points of the item whose points are least certain, but

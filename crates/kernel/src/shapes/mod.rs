@@ -19,12 +19,16 @@ mod torus;
 mod triangle;
 
 use crate::KernelSettings;
+use crate::lean::not_lean;
 use crate::primitive::Primitive;
 use lancer_scene::Geometry;
 use std::sync::Arc;
 
 /// The shape made ready.
 pub(crate) fn primitive(geometry: &Geometry, settings: &KernelSettings) -> Arc<dyn Primitive> {
+    if !matches!(geometry, Geometry::Sphere(_) | Geometry::Plane(_)) {
+        not_lean();
+    }
     match geometry {
         Geometry::Sphere(sphere) => Arc::new(sphere::Ball::new(sphere)),
         Geometry::Plane(plane) => Arc::new(plane::HalfSpace::new(plane)),

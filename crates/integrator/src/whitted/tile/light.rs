@@ -8,7 +8,7 @@ use crate::whitted::lights::{From, Source};
 use crate::whitted::media::Media;
 use crate::whitted::signature::{Signing, Spot, Way};
 use lancer_kernel::lanes::{Lanes, MOST, Mask, Real, Vectors, lanes_of};
-use lancer_kernel::{Candidates, Goal, Rays, Which};
+use lancer_kernel::{Candidates, Goal, LEAN, Rays, Which, not_lean};
 use lancer_math::Vector;
 use lancer_scene::Falloff;
 
@@ -145,6 +145,7 @@ impl<P: Places> Batch<'_, P> {
                 (way, dot(&way, &way), Some(lamp))
             }
             From::Ball(centre, radius) => {
+                not_lean();
                 let numbers = source.dimension(met_on);
                 let ball = (source, index, (centre, *radius));
                 // By value, so that they may stay in registers elsewhere.
@@ -166,7 +167,7 @@ impl<P: Places> Batch<'_, P> {
             Falloff::None => bright / distance,
         };
         let mut mark = lanes.splat(source.marks[0]);
-        if let Some(beam) = &source.beam {
+        if let Some(beam) = source.beam.as_ref().filter(|_| !LEAN) {
             let mut shares = [0.0; MOST];
             for k in lanes_of(asked.bits()) {
                 shares[k] = beam.share(&(way.lane(k) / -distance.lane(k)));

@@ -23,9 +23,8 @@ use crate::rows::Triples;
 use crate::{RayCounts, Rgb, Sample, Seen};
 use buffers::{Buffers, Bundle, Signatures};
 use lancer_film::Window;
-use lancer_kernel::Candidates;
-use lancer_kernel::Rays;
 use lancer_kernel::lanes::{Lanes, Mask, Real, Vectors, Work, dispatch};
+use lancer_kernel::{Candidates, LEAN, Rays};
 use lancer_math::{Bounds, Point, Vector};
 use places::{Pixels, Places, Samples};
 use std::cell::Cell;
@@ -184,7 +183,7 @@ impl<P: Places> Batch<'_, P> {
             }
             if item < 0.0 {
                 self.miss(kind, way);
-            } else if self.tracer.prepared.surface(item as u32).is_transparent() {
+            } else if !LEAN && self.tracer.prepared.surface(item as u32).is_transparent() {
                 self.follow_alone(depth, kind, way);
             } else {
                 self.count(kind);
