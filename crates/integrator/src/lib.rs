@@ -46,7 +46,7 @@ pub use direct::Direct;
 pub use engine::{Engine, Rgb, Tracer, engine_by_name, engines};
 pub use lancer_kernel::{Absent, Culling, KernelSettings, lanes::Width};
 pub use numbers::Stream;
-pub use plan::{About, Asked, Dropped, Facts, Lint, Part, Plan, Reason, lints};
+pub use plan::{About, Asked, Dropped, Facts, LightCounts, Lint, Part, Plan, Reason, lints};
 pub use ray_tree::{
     InMedium, LightAnswer, LightFate, MetSurface, NamedShape, RayFate, RayKind, RayTree, ShadowRay,
     TracedRay,

@@ -92,6 +92,7 @@ mod shapes;
 pub use checker::LaneCells;
 use crossing::Crossing;
 pub mod lanes;
+pub use hierarchy::BOX_SLACK;
 pub use hit::{Hit, SurfacePoint};
 pub use lean::{LEAN, not_lean};
 pub use listed::{Candidates, Goal, LaneHits, LanePoints, ListedShape};

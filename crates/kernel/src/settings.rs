@@ -13,6 +13,7 @@ pub struct KernelSettings {
 /// Work that is left out because it provably changes nothing. All of it is on by
 /// default.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Culling {
     /// The rays of a tile, from the eye or from mirrors, are held only against what some
     /// ray of the tile may meet, and not against what is behind something else.

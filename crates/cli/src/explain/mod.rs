@@ -138,6 +138,7 @@ fn explain_plan(
         engine: WHITTED,
         cutoff: engine.cutoff(),
         error: args.error,
+        strategy: sampling.strategy,
         settled: settled as f64 / pixels.len().max(1) as f64,
         counts: rendered.counts,
         pixels: rendered.film.window().pixels(),

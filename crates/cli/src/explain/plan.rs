@@ -1,9 +1,9 @@
 //! What is done for a scene, and what is left out, as text and as JSON.
 
 use crate::report::count;
-use lancer_integrator::{Culling, Facts, Part, Plan, RayCounts, Reason};
+use lancer_integrator::{Facts, LightCounts, Part, Plan, RayCounts, Strategy};
 use lancer_scene::Scene;
-use serde_json::{Value, json};
+use serde_json::json;
 use std::fmt::Write;
 
 /// A plan, and what it follows from.
@@ -18,6 +18,8 @@ pub(super) struct Planned<'a> {
     pub(super) cutoff: f64,
     /// The error that is planned for.
     pub(super) error: f64,
+    /// Where samples go.
+    pub(super) strategy: Strategy,
     /// The part of a small picture's pixels that one sample settles.
     pub(super) settled: f64,
     /// The rays of such a picture, and how many pixels that has.
@@ -50,10 +52,11 @@ fn kinds(facts: &Facts) -> String {
 }
 
 fn lights(facts: &Facts) -> String {
-    let lights = facts.lights.iter().zip(["sun", "lamp", "spot"]);
-    let lights: Vec<_> = lights
-        .filter(|(number, _)| **number > 0)
-        .map(|(number, kind)| count(*number as usize, kind))
+    let LightCounts { suns, lamps, spots } = facts.lights;
+    let lights: Vec<_> = [(suns, "sun"), (lamps, "lamp"), (spots, "spot")]
+        .into_iter()
+        .filter(|(number, _)| *number > 0)
+        .map(|(number, kind)| count(number as usize, kind))
         .collect();
     if lights.is_empty() { "no lights".to_owned() } else { lights.join(", ") }
 }
@@ -89,8 +92,11 @@ pub(super) fn text(planned: &Planned<'_>) -> String {
         planned.engine
     ));
     line(&format!(
-        "planned for an error of {}: rays that are left out change no pixel by more than {:.1e}",
-        planned.error, planned.cutoff
+        "planned for an error of {}: samples go by the strategy {}; rays that are left out change no \
+         pixel by more than {:.1e}",
+        planned.error,
+        planned.strategy.name(),
+        planned.cutoff
     ));
     for (title, runs) in [("what runs", true), ("what does not", false)] {
         let own: Vec<_> = parts.iter().filter(|part| part.runs == runs).collect();
@@ -118,67 +124,16 @@ pub(super) fn text(planned: &Planned<'_>) -> String {
 
 /// The plan as JSON.
 pub(super) fn json(planned: &Planned<'_>) -> String {
-    let Planned { facts, plan, .. } = planned;
-    let switches = Culling::without_each();
-    let is_off = |culling: &Culling| plan.kernel.culling == *culling;
-    let nothing = plan.kernel.culling == Culling::NONE;
-    let shortcuts: serde_json::Map<String, Value> = switches
-        .iter()
-        .map(|(name, culling)| ((*name).to_owned(), json!(!nothing && !is_off(culling))))
-        .collect();
-    let dropped: Vec<_> = plan
-        .dropped
-        .iter()
-        .map(|dropped| {
-            let (why, plane) = match dropped.why {
-                Reason::NoLight => ("no-light", None),
-                Reason::Behind(plane) => ("behind", Some(plane + 1)),
-                Reason::Aside => ("aside", None),
-                Reason::Dim => ("dim", None),
-            };
-            json!({"light": dropped.light + 1, "why": why, "plane": plane, "most": dropped.most})
-        })
-        .collect();
-    let marked = |marks: &[bool]| -> Vec<usize> {
-        (1..).zip(marks).filter(|(_, mark)| **mark).map(|(number, _)| number).collect()
-    };
-    let around = facts.around.as_ref().map(|b| [b.min, b.max].map(|p| [p.x, p.y, p.z]));
+    let mut plan = json!(planned.plan);
+    plan["engine"] = json!(planned.engine);
+    plan["error"] = json!(planned.error);
+    plan["cutoff"] = json!(planned.cutoff);
+    plan["strategy"] = json!(planned.strategy.name());
     let value = json!({
         "scene": planned.name,
-        "facts": {
-            "shapes": facts.shapes,
-            "kinds": facts.kinds,
-            "triangles": facts.triangles,
-            "groups": facts.groups,
-            "depth": facts.depth,
-            "lights": {"suns": facts.lights[0], "lamps": facts.lights[1], "spots": facts.lights[2]},
-            "balls": facts.balls,
-            "mirrors": facts.mirrors,
-            "best_mirror": facts.best_mirror,
-            "transparent": facts.transparent,
-            "media": facts.media,
-            "nested_media": facts.nested_media,
-            "checkers": facts.checkers,
-            "glowing": facts.glowing,
-            "endless": facts.endless,
-            "around": around,
-            "reach": facts.reach,
-            "lens": facts.lens,
-            "perspective": facts.perspective,
-        },
-        "plan": {
-            "engine": planned.engine,
-            "error": planned.error,
-            "cutoff": planned.cutoff,
-            "lanes": plan.kernel.lanes.name(),
-            "shortcuts": shortcuts,
-            "dropped_lights": dropped,
-            "absent": {"shapes": marked(&plan.absent.shapes), "groups": marked(&plan.absent.groups)},
-            "most": plan.most(),
-        },
-        "parts": planned.parts.iter().map(|part| json!({
-            "name": part.name, "runs": part.runs, "why": part.why, "most": part.most,
-        })).collect::<Vec<_>>(),
+        "facts": planned.facts,
+        "plan": plan,
+        "parts": planned.parts,
         "settled_by_one_sample": planned.settled,
         "rays_per_sample": rays(planned).into_iter().collect::<std::collections::BTreeMap<_, _>>(),
     });

@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 /// What is in a scene, counted as often as it is placed.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Facts {
     /// How many shapes there are.
     pub shapes: u64,
@@ -19,8 +20,8 @@ pub struct Facts {
     pub groups: u64,
     /// The deepest nesting of groups.
     pub depth: usize,
-    /// Suns, lamps, spots.
-    pub lights: [u64; 3],
+    /// How many lights there are of each kind.
+    pub lights: LightCounts,
     /// How many lamps and spots are balls.
     pub balls: u64,
     /// How many shapes mirror, and what part of the light the best mirror throws back, 0 to 1.
@@ -41,6 +42,7 @@ pub struct Facts {
     /// How many shapes have no end.
     pub endless: u64,
     /// A box around the others, if there are any.
+    #[cfg_attr(feature = "serde", serde(serialize_with = "super::written::corners"))]
     pub around: Option<Bounds>,
     /// The largest coordinate of shapes with an end, lamps and the eye.
     pub reach: f64,
@@ -48,6 +50,18 @@ pub struct Facts {
     pub lens: bool,
     /// Whether rays start at one point.
     pub perspective: bool,
+}
+
+/// How many lights there are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct LightCounts {
+    /// Suns.
+    pub suns: u64,
+    /// Lamps.
+    pub lamps: u64,
+    /// Spots.
+    pub spots: u64,
 }
 
 impl Facts {
@@ -66,18 +80,17 @@ impl Facts {
         };
         let mut points = vec![scene.camera.origin().get(), scene.camera.target().get()];
         for light in &scene.lights {
-            let kind = match light {
-                Light::Sun { .. } => 0,
+            match light {
+                Light::Sun { .. } => facts.lights.suns += 1,
                 Light::Lamp { point, .. } => {
                     points.push(point.get());
-                    1
+                    facts.lights.lamps += 1;
                 }
                 Light::Spot { point, .. } => {
                     points.push(point.get());
-                    2
+                    facts.lights.spots += 1;
                 }
-            };
-            facts.lights[kind] += 1;
+            }
             facts.balls += u64::from(light.radius().is_some());
         }
         facts.reach = points.iter().map(|point| point.coords.amax()).fold(0.0, f64::max);
@@ -90,7 +103,8 @@ impl Facts {
     /// How many lights there are.
     #[must_use]
     pub fn all_lights(&self) -> u64 {
-        self.lights.iter().sum()
+        let LightCounts { suns, lamps, spots } = self.lights;
+        suns + lamps + spots
     }
 }
 
@@ -261,7 +275,10 @@ mod tests {
         let around = facts.around.expect("there are balls");
         assert!((around.min - Point::new(-1.0, -1.0, 4.0)).amax() < 1e-9);
         assert!((around.max - Point::new(10.0, 1.0, 6.0)).amax() < 1e-9);
-        assert_eq!((facts.lights, facts.perspective, facts.lens), ([1, 0, 0], true, false));
+        assert_eq!(
+            (facts.lights, facts.perspective, facts.lens),
+            (LightCounts { suns: 1, ..LightCounts::default() }, true, false)
+        );
     }
 
     /// Against all points of a grid that is finer than the boxes.

@@ -12,8 +12,10 @@ mod lights;
 mod lints;
 mod parts;
 mod sight;
+#[cfg(feature = "serde")]
+mod written;
 
-pub use facts::Facts;
+pub use facts::{Facts, LightCounts};
 pub use lints::{About, Lint, lints};
 pub use parts::Part;
 
@@ -36,8 +38,10 @@ pub struct Asked {
     pub full_model: bool,
 }
 
-/// What is done for a picture.
+/// What is done for a picture: plain data, which the feature `serde` writes and reads.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(into = "written::Written", try_from = "written::Written"))]
 pub struct Plan {
     /// How rays are followed.
     pub kernel: KernelSettings,
@@ -101,7 +105,8 @@ impl Plan {
     /// By how much a pixel may be off for what is left out, at most, in exposed linear units.
     #[must_use]
     pub fn most(&self) -> f64 {
-        self.dropped.iter().map(|dropped| dropped.most).sum()
+        // Not a sum, which is -0 for none.
+        self.dropped.iter().map(|dropped| dropped.most).fold(0.0, |sum, most| sum + most)
     }
 }
 

@@ -2,11 +2,12 @@
 
 use super::{Facts, Plan, Reason};
 use crate::Whitted;
-use lancer_kernel::is_met_in_lanes;
+use lancer_kernel::{BOX_SLACK, is_met_in_lanes};
 use lancer_scene::Scene;
 
 /// A part of the machinery.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Part {
     /// What it is called.
     pub name: &'static str,
@@ -33,7 +34,8 @@ impl Plan {
     /// What runs, and what does not.
     #[must_use]
     pub fn parts(&self, scene: &Scene, facts: &Facts, engine: &Whitted) -> Vec<Part> {
-        let mut parts = vec![acceleration(scene, facts, self), lights(scene, self)];
+        let is_direct = is_met_in_lanes(scene, &self.absent);
+        let mut parts = vec![acceleration(facts, is_direct), lights(scene, self)];
         if let Some(unreached) = unreached(scene, self) {
             parts.push(unreached);
         }
@@ -42,7 +44,7 @@ impl Plan {
             let why = "lights that are too dim or too far to matter are not asked";
             parts.push(Part { most: Some(most), ..Part::new("dim lights", false, why) });
         }
-        parts.push(shadows(facts, self));
+        parts.push(shadows(facts, self, is_direct));
         parts.push(mirrors(facts, engine));
         parts.push(glass(facts));
         parts.push(media(facts));
@@ -80,7 +82,7 @@ impl Plan {
                 ),
             },
         ));
-        parts.push(precision(facts));
+        parts.push(precision(facts, is_direct));
         parts
     }
 }
@@ -114,8 +116,7 @@ fn unreached(scene: &Scene, plan: &Plan) -> Option<Part> {
     })
 }
 
-fn acceleration(scene: &Scene, facts: &Facts, plan: &Plan) -> Part {
-    let is_direct = is_met_in_lanes(scene, &plan.absent);
+fn acceleration(facts: &Facts, is_direct: bool) -> Part {
     let why = if is_direct {
         "spheres and planes alone, and few: all are held against many rays at once".to_owned()
     } else {
@@ -154,14 +155,14 @@ fn lights(scene: &Scene, plan: &Plan) -> Part {
     Part::new("light", asked > 0, why)
 }
 
-fn shadows(facts: &Facts, plan: &Plan) -> Part {
+fn shadows(facts: &Facts, plan: &Plan, is_direct: bool) -> Part {
     let culling = plan.kernel.culling;
     let lights = facts.all_lights() - plan.dropped.len() as u64;
     if lights == 0 {
         return Part::new("shadows", false, "no light is asked");
     }
     let mut why = "a ray to each light from each point".to_owned();
-    if culling.shadow_candidates {
+    if is_direct && culling.shadow_candidates {
         why += ", held against what stands between the point's tile and the light";
     }
     if culling.idle_planes && facts.kinds.contains_key("plane") {
@@ -240,15 +241,21 @@ fn media(facts: &Facts) -> Part {
     }
 }
 
-fn precision(facts: &Facts) -> Part {
+fn precision(facts: &Facts, is_direct: bool) -> Part {
     let apart = facts.reach.next_up() - facts.reach;
+    let half = facts.around.map_or(0.0, |around| 0.5 * around.sides().amax());
+    let boxes = if is_direct {
+        "there are no boxes to be kept in single precision".to_owned()
+    } else {
+        format!(
+            "boxes in single precision are wider than shapes by up to {:.1e}: enough to leave out \
+             only what is surely not met",
+            BOX_SLACK * half
+        )
+    };
     Part::new(
         "double precision",
         true,
-        format!(
-            "coordinates up to {:.3e} are {apart:.1e} apart; boxes in single precision, rounded \
-             outward, only leave out what is surely not met",
-            facts.reach
-        ),
+        format!("coordinates up to {:.3e} are {apart:.1e} apart; {boxes}", facts.reach),
     )
 }

@@ -19,6 +19,7 @@ mod walk;
 
 use build::{DEPTH, Item};
 use lancer_math::Bounds;
+pub use node::BOX_SLACK;
 pub(crate) use node::LEAF;
 use node::{CHILDREN, MOST_ITEMS, Node, Space};
 pub(crate) use query::stretch_in;

@@ -85,6 +85,15 @@ pub(super) struct Space {
     pub(super) scale: f64,
 }
 
+/// By how much wider than shapes, on each side, the boxes of a hierarchy are at most, as a part of the
+/// half of the longest side of all of it: 2^-22. Where that half is out of the range from 1e-120 to
+/// 1e120, all boxes are one.
+///
+/// All is scaled by a power of two so that the half, h, becomes a half or more, and less than 1. There
+/// singles are 2^-24 apart at most: converting to one is off by half of that, and the next one is taken.
+/// Scaled back, that is at most 3 * 2^-24 h; the rest is for the roundings of doubles.
+pub const BOX_SLACK: f64 = 1.0 / 4_194_304.0;
+
 /// Powers of two in use are those up to this one, and their inverses.
 pub(super) const LARGEST_POWER: f64 = f64::from_bits((1023 + 400) << 52);
 
@@ -119,5 +128,42 @@ impl Space {
             [low.x, low.y, low.z].map(|c| (c as f32).next_down()),
             [high.x, high.y, high.z].map(|c| (c as f32).next_up()),
         ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fastrand::Rng;
+
+    #[test]
+    fn boxes_are_wider_but_no_more_than_is_said() {
+        let mut rng = Rng::with_seed(3);
+        let mut widest = 0.0_f64;
+        for _ in 0..100_000 {
+            let size = libm::exp2(f64::from(rng.i32(-390..390)));
+            let mut point = || Point::from([0; 3].map(|_| size * (2.0 * rng.f64() - 1.0)));
+            let all = Bounds::EMPTY.with(point()).with(point());
+            let space = Space::of(&all);
+            let half = 0.5 * all.sides().iter().copied().fold(0.0, f64::max);
+            // A box within it.
+            let mut between = || {
+                let side =
+                    |axis: usize, part: f64| all.min[axis] + part * (all.max[axis] - all.min[axis]);
+                let parts = [0; 3].map(|_| rng.f64());
+                Point::from([0, 1, 2].map(|axis| side(axis, parts[axis])))
+            };
+            let own = Bounds::EMPTY.with(between()).with(between());
+            let [low, high] = space.outward(&own);
+            for axis in 0..3 {
+                let back = |c: f32| f64::from(c) / space.scale + space.centre[axis];
+                let more = [own.min[axis] - back(low[axis]), back(high[axis]) - own.max[axis]];
+                for more in more {
+                    assert!(more >= 0.0 && more <= BOX_SLACK * half, "{} of {half}", more / half);
+                    widest = widest.max(more / half);
+                }
+            }
+        }
+        assert!(widest > 0.5 * BOX_SLACK, "the bound is far too wide: {widest:e}");
     }
 }

@@ -1,5 +1,7 @@
 //! What is probably not meant: the usual reasons for pictures that are black, white or empty.
 
+mod together;
+
 use super::{Facts, Plan, Reason};
 use crate::Tracer;
 use lancer_kernel::figure;
@@ -53,7 +55,8 @@ pub fn lints(scene: &Scene, facts: &Facts, plan: &Plan, tracer: &dyn Tracer) -> 
     inside(scene, around_eye, &mut lints);
     unseen(scene, facts, tracer, &mut lints);
     enclosed(scene, around_eye, &mut lints);
-    coincident(scene, facts, &mut lints);
+    together::faces(scene, facts, &mut lints);
+    together::shapes(scene, facts, &mut lints);
     lints.sort_by_key(|lint| lint.about);
     lints
 }
@@ -235,101 +238,4 @@ fn enclosed(scene: &Scene, around_eye: Option<usize>, lints: &mut Vec<Lint>) {
             ));
         }
     }
-}
-
-/// A flat face: its side of the plane n p = at.
-struct Face {
-    shape: usize,
-    normal: Vector,
-    at: f64,
-    /// Its extent, where it has an end.
-    bounds: Option<lancer_math::Bounds>,
-}
-
-/// How near two faces are that cannot be told apart, in roundings of their coordinates.
-const TOGETHER: f64 = 24.0 * f64::EPSILON;
-
-/// Faces in one place that show the same side: which of them is seen is as rounding has it.
-fn coincident(scene: &Scene, facts: &Facts, lints: &mut Vec<Lint>) {
-    let mut faces = Vec::new();
-    for (shape, it) in scene.shapes.iter().enumerate().take(MOST_COMPARED) {
-        let bounds = figure::bounds(it);
-        let mut add = |normal: Vector, at: f64, bounds| {
-            faces.push(Face { shape, normal, at, bounds });
-        };
-        match &it.geometry {
-            Geometry::Plane(plane) => {
-                let Some(normal) = lancer_math::unit(plane.normal.get()) else { continue };
-                add(normal, plane.origin.get().coords.dot(&normal), None);
-            }
-            Geometry::Cuboid(cuboid) => {
-                for axis in 0..3 {
-                    let (min, max) = (cuboid.min(), cuboid.max());
-                    for (end, sign) in [(min, -1.0), (max, 1.0)] {
-                        let mut normal = Vector::zeros();
-                        normal[axis] = sign;
-                        let (mut from, mut to) = (min, max);
-                        (from[axis], to[axis]) = (end[axis], end[axis]);
-                        let side = lancer_math::Bounds { min: from, max: to };
-                        add(normal, sign * end[axis], Some(side));
-                    }
-                }
-            }
-            _ => {
-                // Sheets lie in their boxes where those are flat, and are seen from both sides.
-                let Some(bounds) = bounds else { continue };
-                let sides = bounds.sides();
-                let is_sheet = matches!(
-                    it.geometry,
-                    Geometry::Disc(_) | Geometry::Rectangle(_) | Geometry::Triangle(_)
-                );
-                let flat =
-                    (0..3).find(|axis| is_sheet && sides[*axis] <= TOGETHER * bounds.reach());
-                if let Some(axis) = flat {
-                    for sign in [-1.0, 1.0] {
-                        let mut normal = Vector::zeros();
-                        normal[axis] = sign;
-                        add(normal, sign * bounds.centre()[axis], Some(bounds));
-                    }
-                }
-            }
-        }
-    }
-    let near = TOGETHER * facts.reach.max(f64::MIN_POSITIVE);
-    let mut told = Vec::new();
-    for (k, a) in faces.iter().enumerate() {
-        for b in &faces[k + 1..] {
-            let pair = (a.shape, b.shape);
-            let is_together = a.shape != b.shape
-                && (a.at - b.at).abs() <= near
-                && (a.normal - b.normal).amax() <= TOGETHER
-                && overlap(a, b, near)
-                && !told.contains(&pair);
-            if !is_together {
-                continue;
-            }
-            told.push(pair);
-            let [one, other] = [a.shape, b.shape].map(|shape| {
-                format!("shape {}, a {}", shape + 1, scene.shapes[shape].geometry.kind())
-            });
-            lints.push(Lint::new(
-                About::Shape(b.shape),
-                format!("{other}, and {one}, have a face in one place, seen from one side"),
-                "only one of them is seen, as rounding has it",
-                "move one of them a little off, or leave one out",
-            ));
-        }
-    }
-}
-
-/// Whether two faces in one plane have more than an edge in common.
-fn overlap(a: &Face, b: &Face, near: f64) -> bool {
-    let (Some(one), Some(other)) = (&a.bounds, &b.bounds) else { return true };
-    let wide = (0..3).filter(|&axis| {
-        one.max[axis].min(other.max[axis]) - one.min[axis].max(other.min[axis]) > near
-    });
-    let apart = (0..3).any(|axis| {
-        one.max[axis].min(other.max[axis]) - one.min[axis].max(other.min[axis]) < -near
-    });
-    !apart && wide.count() >= 2
 }
