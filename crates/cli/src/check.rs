@@ -1,9 +1,8 @@
 //! `lancer check`
 
 use crate::args::CheckArgs;
-use crate::lints::Looked;
 use crate::report::{self, Tally, count};
-use crate::{Failure, files, print_line};
+use crate::{Failure, files, lints, print_line};
 use lancer_integrator::RenderSettings;
 use lancer_xml::Options;
 
@@ -31,23 +30,15 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
                 ));
                 tally.errors += 1;
             }
-            let is_shown = tally.errors == 0;
-            for warning in engine.warnings(scene) {
-                match &args.deny {
-                    Some(_) => tally.errors += 1,
-                    None => tally.warnings += 1,
-                }
-                report::say(format_args!("warning: {name}: {warning}"));
-            }
-            if is_shown {
+            let mut found = engine.warnings(scene);
+            if tally.errors == 0 {
                 let plan = RenderSettings::default().plan(scene, engine);
-                let tracer = engine.prepare(scene, &plan);
-                let looked = Looked { scene, plan: &plan, tracer: &*tracer };
-                let found = looked.tell(&name, &parsed.source, false).warnings;
-                match &args.deny {
-                    Some(_) => tally.errors += found,
-                    None => tally.warnings += found,
-                }
+                found.extend(lints::of_scene(scene, engine, &plan));
+            }
+            let found = lints::tell(&found, &name, &parsed.source, false).warnings;
+            match &args.deny {
+                Some(_) => tally.errors += found,
+                None => tally.warnings += found,
             }
         }
         failed |= tally.errors > 0;

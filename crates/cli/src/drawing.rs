@@ -1,9 +1,8 @@
 //! A picture of a scene while it is rendered, with progress for a person.
 
 use crate::args::RenderArgs;
-use crate::lints::Looked;
 use crate::render::{Outputs, WHITTED};
-use crate::{Failure, interrupt, report};
+use crate::{Failure, interrupt, lints, report};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use lancer_integrator::{
     Engine, Forecast, KernelSettings, Progress, RenderError, RenderSettings, Rendered, Sampling,
@@ -48,10 +47,9 @@ impl Drawing<'_> {
     /// has been told.
     pub(crate) fn lints(&self, name: &str, source: &Source) -> usize {
         let plan = self.settings().plan(self.scene, self.engine);
-        let tracer = self.engine.prepare(self.scene, &plan);
-        let looked = Looked { scene: self.scene, plan: &plan, tracer: &*tracer };
-        let found = looked.tell(name, source, self.args.quiet).warnings;
-        found + self.engine.warnings(self.scene).len()
+        let found = lints::of_scene(self.scene, self.engine, &plan);
+        lints::tell(&found, name, source, self.args.quiet).warnings
+            + self.engine.warnings(self.scene).len()
     }
 
     /// Renders it.

@@ -2,33 +2,27 @@
 
 use crate::report::{self, Tally};
 use lancer_film::{Film, exposure_factor};
-use lancer_integrator::{About, Facts, Lint, Plan, Tracer};
+use lancer_integrator::{About, Engine, Facts, Lint, Plan};
 use lancer_scene::Scene;
 use lancer_xml::{Diagnostic, Parsed, Places, Severity, Source};
 use std::ops::Range;
 
-/// What to look at.
-pub(crate) struct Looked<'a> {
-    pub(crate) scene: &'a Scene,
-    pub(crate) plan: &'a Plan,
-    /// The engine made ready for it, which looks at some pixels.
-    pub(crate) tracer: &'a dyn Tracer,
+/// What is probably not meant in a scene, for which that engine is made ready.
+pub(crate) fn of_scene(scene: &Scene, engine: &dyn Engine, plan: &Plan) -> Vec<Lint> {
+    let tracer = engine.prepare(scene, plan);
+    lancer_integrator::lints(scene, &Facts::of(scene), plan, &*tracer)
 }
 
-impl Looked<'_> {
-    /// Tells what is probably not meant, unless only errors are to be told.
-    pub(crate) fn tell(&self, name: &str, source: &Source, quiet: bool) -> Tally {
-        let lints =
-            lancer_integrator::lints(self.scene, &Facts::of(self.scene), self.plan, self.tracer);
-        if lints.is_empty() {
-            return Tally::default();
-        }
-        // What was read as a scene is XML, but for what was mended.
-        let places = Places::of(source).unwrap_or_default();
-        let diagnostics = lints.iter().map(|lint| diagnostic(lint, &places)).collect();
-        let parsed = Parsed { source: source.clone(), diagnostics, scene: None };
-        report::show(name, &parsed, quiet)
+/// Tells it, unless only errors are to be told.
+pub(crate) fn tell(lints: &[Lint], name: &str, source: &Source, quiet: bool) -> Tally {
+    if lints.is_empty() {
+        return Tally::default();
     }
+    // What was read as a scene is XML, but for what was mended.
+    let places = Places::of(source).unwrap_or_default();
+    let diagnostics = lints.iter().map(|lint| diagnostic(lint, &places)).collect();
+    let parsed = Parsed { source: source.clone(), diagnostics, scene: None };
+    report::show(name, &parsed, quiet)
 }
 
 fn diagnostic(lint: &Lint, places: &Places) -> Diagnostic {

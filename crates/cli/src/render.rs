@@ -219,11 +219,7 @@ fn scene(
         quiet: args.quiet,
     };
     let (scene, source) = wanted.scene(name, bytes)?;
-    if !args.quiet {
-        for warning in engine.warnings(&scene) {
-            report::say(format_args!("warning: {name}: {warning}"));
-        }
-    }
+    lints::tell(&engine.warnings(&scene), name, &source, args.quiet);
     Ok((scene, source))
 }
 

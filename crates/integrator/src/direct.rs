@@ -16,7 +16,7 @@ impl Engine for Direct {
         "the original's simple engine: lit surfaces and shadows, no mirrors, no glow"
     }
 
-    fn warnings(&self, scene: &Scene) -> Vec<String> {
+    fn warnings(&self, scene: &Scene) -> Vec<crate::Lint> {
         crate::classic::warnings(scene)
     }
 

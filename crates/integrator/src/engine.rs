@@ -1,4 +1,4 @@
-use crate::{Classic, Direct, Plan, RayCounts, Sampler, TILE_SIDE, Whitted};
+use crate::{Classic, Direct, Lint, Plan, RayCounts, Sampler, TILE_SIDE, Whitted};
 use lancer_film::{Display, LayerPixel, Window};
 use lancer_kernel::LEAN;
 use lancer_scene::Scene;
@@ -24,9 +24,8 @@ pub trait Engine: Sync {
         Display::Brightest { white: 255.0 }
     }
 
-    /// What a user should know about this scene in this engine: sentences
-    /// that say what will look wrong and what to do.
-    fn warnings(&self, scene: &Scene) -> Vec<String> {
+    /// What a user should know about this scene in this engine: what will look wrong, and what to do.
+    fn warnings(&self, scene: &Scene) -> Vec<Lint> {
         let _ = scene;
         Vec::new()
     }

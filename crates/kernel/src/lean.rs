@@ -12,5 +12,7 @@ pub const LEAN: bool = cfg!(lancer_lean);
 /// In a lean build.
 #[inline(always)]
 pub const fn not_lean() {
-    assert!(!LEAN, "a lean build is for opaque spheres and planes under lamps alone");
+    if LEAN {
+        panic!("a lean build is for opaque spheres and planes under lamps alone");
+    }
 }

@@ -28,8 +28,10 @@ fn cases() -> Vec<(&'static str, &'static str, String)> {
     let hidden = r#"<cube color="blue" size="0.5"><point x="0" y="0" z="1"/></cube>"#;
     let table = r#"<box color="blue"><from x="2" y="0" z="0"/><to x="3" y="1" z="1"/></box>"#;
     let sheet = r#"<rectangle color="white"><point x="2" y="0" z="1"/><across x="1" y="0" z="0"/><upward x="0" y="1" z="0"/></rectangle>"#;
+    let small = r#"<sphere color="white" size="1e-9"><point x="0" y="1e9" z="1"/></sphere>"#;
+    let far = r#"<camera pxwidth="40" pxheight="30" width="1"><origin x="0" y="-9" z="1e12"/><target x="0" y="-8" z="1e12"/></camera>"#;
     let again = r#"<sphere color="white" size="1"><point x="0" y="1e-16" z="1"/></sphere>"#;
-    let ring = r#"<torus color="red" size="2" tube="0.5"><point x="4" y="0" z="1"/><normal x="0" y="0" z="1"/></torus>"#;
+    let ring = r#"<torus color="red" size="2" tube="0.5"><point x="4" y="0" z="1"/><axis x="0" y="0" z="1"/></torus>"#;
     vec![
         ("there is no light, and nothing glows: all shapes are black", "<world>", {
             scene(CAMERA, "", &ball).replace("<lights>", "<background color=\"white\"/>\n<lights>")
@@ -46,6 +48,12 @@ fn cases() -> Vec<(&'static str, &'static str, String)> {
             sheet,
             scene(CAMERA, LAMP, &with(&format!("{table}\n{sheet}"))),
         ),
+        (
+            "shape 3, a sphere, stands 1.0e9 from the origin",
+            small,
+            scene(CAMERA, LAMP, &with(small)),
+        ),
+        ("the camera is 1.0e12 from the origin", far, scene(far, LAMP, &ball)),
         ("shape 3, a sphere, is where shape 2 is", again, scene(CAMERA, LAMP, &with(again))),
         (
             "shape 4, a torus, is where shape 3 is",

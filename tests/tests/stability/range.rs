@@ -126,7 +126,8 @@ fn i1_a_moved_scene_has_the_same_picture() {
     for k in [34, 40, 46] {
         let far = world(Map { shift: [power(k); 3], ..SAME }, true);
         let [warning] = &Whitted::new().warnings(&far)[..] else { panic!("2^{k}") };
-        assert!(warning.contains(&format!("{:.1e} apart", power(k - 52))), "{warning}");
+        let said = &warning.message;
+        assert!(said.contains(&format!("{:.1e} apart", power(k - 52))), "{said}");
         // It ends, with numbers.
         finite(&far, "far away");
     }

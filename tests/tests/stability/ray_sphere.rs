@@ -204,7 +204,7 @@ fn s6_those_that_are_never_met() {
             .build()
             .expect("valid");
         let warnings = whitted.warnings(&scene);
-        assert_eq!(!is_met, warnings.iter().any(|w| w.starts_with("shape 1, a sphere,")));
+        assert_eq!(!is_met, warnings.iter().any(|w| w.message.starts_with("shape 1, a sphere,")));
         if !is_met {
             let asked = Asked::new(good.clone().into_iter().chain([odd]));
             assert_eq!(asked.nearest_each(&rays, f64::INFINITY), expected, "{radius}");

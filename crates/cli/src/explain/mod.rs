@@ -11,10 +11,9 @@ pub use args::ExplainArgs;
 
 use crate::args::is_standard;
 use crate::files::{Target, read};
-use crate::lints::Looked;
 use crate::render::WHITTED;
 use crate::scene::Wanted;
-use crate::{Failure, report};
+use crate::{Failure, lints, report};
 use lancer_film::{Quality, Size, Window};
 use lancer_integrator::{
     Engine, Facts, KernelSettings, RayTree, RenderSettings, Sampling, Whitted, Width, render,
@@ -41,11 +40,7 @@ pub(crate) fn run(args: &ExplainArgs) -> Result<(), Failure> {
         return explain_plan(args, (&name, &source), &scene, kernel);
     };
     let engine = args.cutoff.unwrap_or_default();
-    if !args.quiet {
-        for warning in engine.warnings(&scene) {
-            report::say(format_args!("warning: {name}: {warning}"));
-        }
-    }
+    lints::tell(&engine.warnings(&scene), &name, &source, args.quiet);
     let frame = Size::new(scene.camera.px_width.get(), scene.camera.px_height.get());
     let (x, y) = pixel;
     if x >= frame.width || y >= frame.height {
@@ -107,11 +102,8 @@ fn explain_plan(
     };
     let plan = settings.plan(scene, &engine);
     if !args.quiet {
-        for warning in engine.warnings(scene) {
-            report::say(format_args!("warning: {name}: {warning}"));
-        }
-        let tracer = engine.prepare(scene, &plan);
-        Looked { scene, plan: &plan, tracer: &*tracer }.tell(name, source, false);
+        let found = [engine.warnings(scene), lints::of_scene(scene, &engine, &plan)].concat();
+        lints::tell(&found, name, source, false);
     }
     let mut small = scene.clone();
     let [width, height] = [scene.camera.px_width.get(), scene.camera.px_height.get()];

@@ -24,7 +24,7 @@ impl Engine for Classic {
         "the original's recursive engine: mirrors, shadows, glow around lights"
     }
 
-    fn warnings(&self, scene: &Scene) -> Vec<String> {
+    fn warnings(&self, scene: &Scene) -> Vec<crate::Lint> {
         super::warnings(scene)
     }
 

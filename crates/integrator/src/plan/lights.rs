@@ -33,14 +33,13 @@ const CLEARANCE: f64 = 64.0 * f64::EPSILON;
 /// the distance of the nearest surface. The dimmest are left out for which all that, exposed, is
 /// together within a tenth of the error.
 pub(super) fn dropped(scene: &Scene, asked: &Asked, sight: &Sight<'_>) -> Vec<Dropped> {
-    let walls: Vec<(usize, &Plane)> = scene.shapes.iter().enumerate().filter_map(wall).collect();
     let mut dropped = Vec::new();
     let mut others = Vec::new();
     for (number, light) in scene.lights.iter().enumerate() {
         let why = if light.brightness().get() == 0.0 {
             Some(Reason::NoLight)
         } else {
-            let wall = walls.iter().find(|(_, plane)| hides(plane, scene, light));
+            let wall = sight.planes.iter().find(|(_, plane)| hides(plane, scene, light));
             let behind = wall.map(|(shape, _)| Reason::Behind(*shape));
             behind.or_else(|| beams::is_aside(scene, light, sight).then_some(Reason::Aside))
         };
@@ -67,14 +66,6 @@ pub(super) fn dropped(scene: &Scene, asked: &Asked, sight: &Sight<'_>) -> Vec<Dr
     }
     dropped.sort_by_key(|dropped| dropped.light);
     dropped
-}
-
-/// An opaque plane, which is all that cuts space in two.
-fn wall((number, shape): (usize, &Shape)) -> Option<(usize, &Plane)> {
-    match &shape.geometry {
-        Geometry::Plane(plane) if !shape.surface.is_transparent() => Some((number, plane)),
-        _ => None,
-    }
 }
 
 /// Whether a plane stands between the eye and a light.

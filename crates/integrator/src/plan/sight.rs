@@ -5,7 +5,8 @@ use super::half_space::{HalfSpace, Ways};
 use crate::whitted::outermost_rays;
 use lancer_kernel::{Absent, figure};
 use lancer_math::{Bounds, Point, Vector, unit};
-use lancer_scene::{Geometry, Group, Length, Light, Placed, Scene, Shape};
+use lancer_scene::{Geometry, Group, Length, Light, Placed, Plane, Scene, Shape};
+use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -21,6 +22,10 @@ use std::sync::Arc;
 /// (see [`Ways::half_spaces`]). Where a round mirror or glass is in view, rays may go anywhere.
 pub(super) struct Sight<'a> {
     scene: &'a Scene,
+    /// The opaque planes, with their numbers among the scene's own shapes.
+    pub(super) planes: Vec<(usize, &'a Plane)>,
+    /// The own shapes that rays go on from.
+    bending: Vec<&'a Shape>,
     walls: Vec<HalfSpace>,
     /// Those of the eye, and those by flat mirrors; none where they lead anywhere.
     ways: Vec<Ways>,
@@ -30,9 +35,18 @@ pub(super) struct Sight<'a> {
 
 impl<'a> Sight<'a> {
     pub(super) fn new(scene: &'a Scene) -> Self {
+        // One look at each: there may be millions.
+        let numbered = scene.shapes.par_iter().with_min_len(MANY).enumerate();
+        let notable: Vec<(usize, &Shape)> =
+            numbered.filter(|(_, shape)| bends(shape) || wall(shape).is_some()).collect();
+        let planes: Vec<_> =
+            notable.iter().filter_map(|(number, shape)| Some((*number, wall(shape)?))).collect();
+        let bending =
+            notable.iter().map(|(_, shape)| *shape).filter(|shape| bends(shape)).collect();
         let eye = Ways::of_rays(&outermost_rays(&scene.camera));
-        let walls = walls(scene, &eye);
-        let mut sight = Self { scene, walls, ways: Vec::new(), seen: Vec::new() };
+        let walls = walls(&planes, &eye);
+        let (ways, seen) = (Vec::new(), Vec::new());
+        let mut sight = Self { scene, planes, bending, walls, ways, seen };
         sight.ways = sight.with_mirrors(eye).unwrap_or_default();
         sight.seen = sight.within(&sight.ways);
         sight
@@ -66,9 +80,8 @@ impl<'a> Sight<'a> {
 
     /// The boxes of what rays do not end at, mirrors and glass, and the planes of flat mirrors.
     fn bending(&self) -> Vec<(Option<Bounds>, Option<Flat>)> {
-        let own = self.scene.shapes.iter().filter(|shape| bends(shape));
         let mut bending: Vec<_> =
-            own.map(|shape| (figure::bounds(shape), flat_mirror(shape))).collect();
+            self.bending.iter().map(|shape| (figure::bounds(shape), flat_mirror(shape))).collect();
         let (mut known, mut boxes) = (BTreeMap::new(), BTreeMap::new());
         for placed in &self.scene.groups {
             if group_bends(&placed.group, &mut known) {
@@ -91,8 +104,21 @@ impl<'a> Sight<'a> {
         }
         let mut known = BTreeMap::new();
         Absent {
-            shapes: marks(&self.scene.shapes, &spaces, figure::bounds),
-            groups: marks(&self.scene.groups, &spaces, |placed| around_placed(placed, &mut known)),
+            shapes: match useful(&self.scene.shapes, &spaces, figure::bounds) {
+                None => Vec::new(),
+                Some(useful) => {
+                    let shapes = self.scene.shapes.par_iter().with_min_len(MANY);
+                    shapes.map(|shape| !is_within(figure::bounds(shape), &useful)).collect()
+                }
+            },
+            groups: {
+                let mut around = |placed: &Placed| around_placed(placed, &mut known);
+                let useful = useful(&self.scene.groups, &spaces, &mut around);
+                let placed = self.scene.groups.iter();
+                useful.map_or_else(Vec::new, |useful| {
+                    placed.map(|placed| !is_within(around(placed), &useful)).collect()
+                })
+            },
         }
     }
 
@@ -127,15 +153,20 @@ fn is_within(bounds: Option<Bounds>, families: &[Vec<HalfSpace>]) -> bool {
     bounds.is_none_or(|bounds| families.iter().any(|spaces| is_in(&bounds, spaces)))
 }
 
-/// The sides of opaque planes on which all rays start.
-fn walls(scene: &Scene, eye: &Ways) -> Vec<HalfSpace> {
-    let side = |shape: &Shape| match &shape.geometry {
-        Geometry::Plane(plane) if !shape.surface.is_transparent() => {
-            HalfSpace::with_balls(&plane.origin.get(), &unit(plane.normal.get())?, &eye.balls)
-        }
+/// An opaque plane, which is all that cuts space in two.
+fn wall(shape: &Shape) -> Option<&Plane> {
+    match &shape.geometry {
+        Geometry::Plane(plane) if !shape.surface.is_transparent() => Some(plane),
         _ => None,
+    }
+}
+
+/// The sides of opaque planes on which all rays start.
+fn walls(planes: &[(usize, &Plane)], eye: &Ways) -> Vec<HalfSpace> {
+    let side = |(_, plane): &(usize, &Plane)| {
+        HalfSpace::with_balls(&plane.origin.get(), &unit(plane.normal.get())?, &eye.balls)
     };
-    scene.shapes.iter().filter_map(side).collect()
+    planes.iter().filter_map(side).collect()
 }
 
 /// A point of a plane, and its normal of length 1.
@@ -203,26 +234,26 @@ pub(super) fn around_placed(placed: &Placed, known: &mut Known<Option<Bounds>>) 
     (own.min.x <= own.max.x).then(|| placed.placement.bounds(&own))
 }
 
+/// Threads take no fewer shapes at once.
+const MANY: usize = 4096;
 /// So many are looked at first,
 const LOOKED_AT: usize = 256;
 /// and all only if at least one in so many of those is not reached: else it does not pay.
-const WORTH: usize = 16;
+const WORTH: usize = 8;
 
-/// A mark for each that is outside of one half-space of each family; no marks where they are too few.
-fn marks<T>(
+/// Of each family the half-spaces that exclude some of those that are looked at first; `None` where
+/// too few of those are outside of one of each.
+fn useful<T>(
     all: &[T],
     families: &[Vec<HalfSpace>],
-    mut bounds: impl FnMut(&T) -> Option<Bounds>,
-) -> Vec<bool> {
+    bounds: impl FnMut(&T) -> Option<Bounds>,
+) -> Option<Vec<Vec<HalfSpace>>> {
     let step = all.len().div_ceil(LOOKED_AT).max(1);
-    let some: Vec<Bounds> = all.iter().step_by(step).filter_map(&mut bounds).collect();
+    let some: Vec<Bounds> = all.iter().step_by(step).filter_map(bounds).collect();
     let excluded = some.iter().filter(|bounds| !is_within(Some(**bounds), families)).count();
     if excluded == 0 || excluded * WORTH < all.len().div_ceil(step) {
-        return Vec::new();
+        return None;
     }
-    // Those half-spaces are held against all that excluded one of the first.
     let is_useful = |space: &&HalfSpace| some.iter().any(|bounds| space.excludes(bounds));
-    let useful: Vec<Vec<HalfSpace>> =
-        families.iter().map(|spaces| spaces.iter().filter(is_useful).copied().collect()).collect();
-    all.iter().map(|one| !is_within(bounds(one), &useful)).collect()
+    Some(families.iter().map(|spaces| spaces.iter().filter(is_useful).copied().collect()).collect())
 }

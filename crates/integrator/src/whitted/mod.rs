@@ -12,14 +12,13 @@ mod stops;
 mod tile;
 mod tracer;
 mod view;
+mod warnings;
 
-use crate::{Engine, Plan, RayTree, Tracer};
+use crate::{Engine, Lint, Plan, RayTree, Tracer};
 use lancer_film::Display;
-use lancer_kernel::{KernelSettings, LEAST_RADIUS};
+use lancer_kernel::KernelSettings;
 use lancer_math::Ray;
-use lancer_scene::{Camera, Geometry, Group, InvalidField, OutOfRange, Placed, Scene, Shape};
-use std::collections::BTreeSet;
-use std::sync::Arc;
+use lancer_scene::{Camera, InvalidField, OutOfRange, Scene};
 
 /// The usual engine: lamps whose light falls off, mirrors and glass to any
 /// depth that can be seen, in linear light.
@@ -102,15 +101,6 @@ impl Default for Whitted {
     }
 }
 
-/// Of a camera whose coordinates are up to so many times its distance to the target, 2^30,
-/// steps are too small for most pictures to show: of one scene, moved nearly so far, no more
-/// than a pixel in a thousand is another by a level of 255.
-const FARTHEST: f64 = 1_073_741_824.0;
-
-/// Coordinates up to this can be squared, and the result multiplied with
-/// another one, in double precision.
-const LARGEST: f64 = 1e75;
-
 impl Engine for Whitted {
     fn name(&self) -> &str {
         "whitted"
@@ -124,74 +114,11 @@ impl Engine for Whitted {
         Display::Exposed
     }
 
-    fn warnings(&self, scene: &Scene) -> Vec<String> {
-        let mut warnings = Vec::new();
-        let camera = &scene.camera;
-        let reach = camera.origin().get().coords.amax().max(camera.target().get().coords.amax());
-        if reach > LARGEST {
-            warnings.push(format!(
-                "the camera is farther than {LARGEST:e} from the origin, where squares leave the \
-                 range of numbers: scale the scene"
-            ));
-        }
-        let to_target = (camera.target().get() - camera.origin().get()).amax();
-        if reach > FARTHEST * to_target && reach <= LARGEST {
-            let apart = reach.next_up() - reach;
-            warnings.push(format!(
-                "the camera is {reach:.1e} from the origin, where coordinates are {apart:.1e} apart, \
-                 and {to_target:.1e} from its target: what is near it may look stepped; move the \
-                 scene to the origin"
-            ));
-        }
-        let mut groups = BTreeSet::new();
-        of_shapes(&scene.shapes, "", &mut warnings);
-        in_groups(&scene.groups, &mut groups, &mut warnings);
-        warnings
+    fn warnings(&self, scene: &Scene) -> Vec<Lint> {
+        warnings::of(scene)
     }
 
     fn prepare<'s>(&'s self, scene: &'s Scene, plan: &Plan) -> Box<dyn Tracer + 's> {
         Box::new(tracer::WhittedTracer::new(scene, self.cutoff, plan))
-    }
-}
-
-fn in_groups(groups: &[Placed], seen: &mut BTreeSet<*const Group>, warnings: &mut Vec<String>) {
-    for placed in groups {
-        if seen.insert(Arc::as_ptr(&placed.group)) {
-            let of = placed
-                .group
-                .name()
-                .map_or_else(|| " of a group".to_owned(), |name| format!(" of `{name}`"));
-            of_shapes(placed.group.shapes(), &of, warnings);
-            in_groups(placed.group.groups(), seen, warnings);
-        }
-    }
-}
-
-/// Spheres that are too small or too large to be met; and transparent shapes that enclose nothing, so
-/// that light enters their medium and never leaves it.
-fn of_shapes(shapes: &[Shape], of: &str, warnings: &mut Vec<String>) {
-    for (i, shape) in shapes.iter().enumerate() {
-        if let Geometry::Sphere(sphere) = &shape.geometry
-            && let radius = sphere.radius.get()
-            && (radius < LEAST_RADIUS || radius * radius == f64::INFINITY)
-        {
-            warnings.push(format!(
-                "shape {}{of}, a sphere, is not seen, since the square of its radius leaves the \
-                 range of numbers: scale the scene",
-                i + 1
-            ));
-        }
-        if !shape.surface.has_medium() || shape.geometry.is_closed() {
-            continue;
-        }
-        let (number, kind) = (i + 1, shape.geometry.kind());
-        let why = match shape.geometry {
-            Geometry::Mesh(_) => "not each of its edges has a triangle on either side",
-            _ => "it has no inside",
-        };
-        warnings.push(format!(
-            "shape {number}{of}, a {kind}, is transparent but not closed ({why}): what enters its \
-             medium there never leaves it; make it thin=\"true\", or close it"
-        ));
     }
 }

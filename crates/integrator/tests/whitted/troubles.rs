@@ -5,7 +5,8 @@ use lancer_integrator::{Engine, Trouble, Troubles, Whitted};
 use lancer_scene::{Camera, Group, SceneBuilder, Shape};
 
 fn warnings(builder: SceneBuilder) -> Vec<String> {
-    Whitted::new().warnings(&builder.build().expect("valid"))
+    let warnings = Whitted::new().warnings(&builder.build().expect("valid"));
+    warnings.into_iter().map(|warning| warning.message).collect()
 }
 
 /// A pane without an inside, of a medium: what leaves it was never in it.

@@ -35,7 +35,8 @@ pub struct Lint {
 }
 
 impl Lint {
-    fn new(
+    /// With all that it says.
+    pub fn new(
         about: About,
         message: impl Into<String>,
         label: impl Into<String>,
