@@ -31,6 +31,7 @@ struct Subject {
     engine: &'static dyn Engine,
 }
 
+/// As for pictures of [`ERROR`].
 static WHITTED: Whitted = Whitted::new();
 
 pub(crate) fn run(args: &PlanReportArgs) -> Result<(), Failure> {
@@ -43,6 +44,7 @@ pub(crate) fn run(args: &PlanReportArgs) -> Result<(), Failure> {
     let mut ways: Vec<(&str, Way)> = vec![("as planned, ms", Way::Planned)];
     ways.push(("lights that need not be asked", Way::AllLights));
     ways.push(("shapes out of reach", Way::AllShapes));
+    ways.push(("the cutoff", Way::AllRays));
     // Sorting is for large batches of rays, which pictures do not ask for.
     let switches = Culling::without_each().into_iter().filter(|(name, _)| *name != "sorted_rays");
     ways.extend(switches.map(|(name, culling)| (name, Way::Without(culling))));
@@ -77,17 +79,23 @@ enum Way {
     AllLights,
     /// All but shapes that no ray reaches.
     AllShapes,
+    /// All but rays that do not matter.
+    AllRays,
     Without(Culling),
     Full,
 }
 
 impl Way {
+    const fn is_deep(self) -> bool {
+        matches!(self, Self::AllRays)
+    }
+
     fn plan(self, scene: &Scene) -> Plan {
         let asked =
             Asked { error: Some(ERROR), factor: Some(exposure_factor(0.0)), ..Asked::default() };
         let kernel = |culling| KernelSettings { culling, ..KernelSettings::default() };
         match self {
-            Self::Planned => Plan::new(scene, &asked),
+            Self::Planned | Self::AllRays => Plan::new(scene, &asked),
             Self::AllLights => Plan { dropped: Vec::new(), ..Plan::new(scene, &asked) },
             Self::AllShapes => Plan { absent: Absent::NONE, ..Plan::new(scene, &asked) },
             Self::Without(culling) => Plan::new(scene, &Asked { kernel: kernel(culling), ..asked }),
@@ -98,6 +106,8 @@ impl Way {
 
 /// The error that pictures are planned for.
 const ERROR: f64 = 0.0005;
+/// Rays that together matter less than this matter in no picture.
+const NOTHING: f64 = 1e-9;
 
 /// A cell for each way: milliseconds as planned, planning and making ready included, and how many
 /// times longer the others take.
@@ -106,10 +116,15 @@ fn column(subject: &Subject, ways: &[(&str, Way)], runs: usize) -> Result<Vec<St
     let frame = Size::new(camera.px_width.get(), camera.px_height.get());
     let mut first: Option<Vec<Rgb>> = None;
     let most = Way::Planned.plan(&subject.scene).most();
-    let samples = in_turn(runs, ways, |(_, way)| {
+    let is_whitted = subject.engine.name() == WHITTED.name();
+    let all_rays = Whitted::with_cutoff(NOTHING).map_err(fail)?;
+    let deep = ways.iter().position(|(_, way)| way.is_deep()).unwrap_or(0);
+    let ways: Vec<_> = ways.iter().filter(|(_, way)| is_whitted || !way.is_deep()).collect();
+    let samples = in_turn(runs, &ways, |(_, way)| {
+        let engine: &dyn Engine = if way.is_deep() { &all_rays } else { subject.engine };
         let mut pixels = Vec::with_capacity(frame.pixels() as usize);
         let (took, ()) = seconds(|| {
-            let tracer = subject.engine.prepare(&subject.scene, &way.plan(&subject.scene));
+            let tracer = engine.prepare(&subject.scene, &way.plan(&subject.scene));
             let mut counts = RayCounts::default();
             let mut tile = [[0.0; 3]; (TILE_SIDE * TILE_SIDE) as usize];
             for window in frame.window().strips(TILE_SIDE, TILE_SIDE) {
@@ -121,14 +136,21 @@ fn column(subject: &Subject, ways: &[(&str, Way)], runs: usize) -> Result<Vec<St
         let first = first.get_or_insert_with(|| pixels.clone());
         let off = first.iter().flatten().zip(pixels.iter().flatten());
         let worst = off.map(|(a, b)| f64::from((a - b).abs())).fold(0.0, f64::max);
-        if worst > most {
+        // Rays that are cut off see nothing brighter than what is in the picture.
+        let brightest = first.iter().flatten().fold(1.0, |most: f32, v| most.max(*v));
+        let cut = if way.is_deep() { WHITTED.cutoff() * f64::from(brightest) } else { 0.0 };
+        if worst > most + cut {
             return Err(fail(format_args!("a pixel is {worst:e} off, and {most:e} are stated")));
         }
         Ok(took)
     })?;
     let planned = &samples[0];
     let ratios = samples[1..].iter().map(|without| number(without.times(planned)));
-    Ok(std::iter::once(planned.milliseconds()).chain(ratios).collect())
+    let mut cells: Vec<_> = std::iter::once(planned.milliseconds()).chain(ratios).collect();
+    if !is_whitted {
+        cells.insert(deep, "-".to_owned());
+    }
+    Ok(cells)
 }
 
 fn subjects() -> Result<Vec<Subject>, Failure> {
@@ -163,6 +185,12 @@ fn subjects() -> Result<Vec<Subject>, Failure> {
             room(&lights, 0.1)
         })?,
         built("shapes all around", all_around())?,
+        built("lights of brightness 0", {
+            let off = (0..12).map(|k| Light::lamp([f64::from(k) - 6.0, -3.0, 4.0], 0.0));
+            let lights: Vec<_> =
+                std::iter::once(Light::lamp([2.0, -3.0, 5.0], 20.0)).chain(off).collect();
+            room(&lights, 0.1)
+        })?,
         built("dim lights", {
             let far = (0..20).map(|k| Light::lamp([f64::from(k), 0.0, 200.0], 0.01));
             let lights: Vec<_> =
