@@ -1,6 +1,6 @@
 //! `cargo xtask lean`: what is in the program, and not used by a scene, costs it.
 
-use crate::bench::clock::{in_turn, number};
+use crate::bench::clock::in_turn;
 use crate::bench::process::{self, Build};
 use crate::bench::{machine, page::Table};
 use crate::{Failure, fail, sections};
@@ -52,7 +52,7 @@ pub(crate) fn run(args: &LeanArgs) -> Result<(), Failure> {
             name.to_owned(),
             samples[1].milliseconds(),
             samples[0].milliseconds(),
-            number(ratio),
+            format!("{ratio:.3}"),
         ]);
     }
     let text = format!(
