@@ -53,8 +53,10 @@ pub(crate) fn run(args: &PlanReportArgs) -> Result<(), Failure> {
     head.extend(subjects.iter().map(|subject| subject.name));
     let mut rows: Vec<Vec<String>> =
         ways.iter().map(|(name, _)| vec![(*name).to_owned()]).collect();
+    let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build().map_err(fail)?;
     for subject in &subjects {
-        let column = column(subject, &ways, usize::from(args.runs))
+        let column = alone
+            .install(|| column(subject, &ways, usize::from(args.runs)))
             .map_err(|failure| fail(format_args!("{}: {failure}", subject.name)))?;
         for (row, cell) in rows.iter_mut().zip(column) {
             row.push(cell);

@@ -3,8 +3,11 @@
 //!
 //! [`render`] cuts the frame into tiles, gives them to the engine on as many
 //! threads as asked for, and puts the answers together. The film does not
-//! depend on the number of threads. Two engines are built in, [`Classic`] and
-//! [`Direct`]; [`Engine`] is all that is needed to write another one.
+//! depend on the number of threads. Three engines are built in: [`Whitted`], the usual one, and
+//! [`Classic`] and [`Direct`], the original program's; [`Engine`] is all that is needed to write
+//! another one.
+//!
+//! With the feature `serde`, [`Facts`] and [`Plan`]s can be written, and plans read.
 //!
 //! ```
 //! use lancer_integrator::{Classic, RenderSettings, render};

@@ -31,6 +31,7 @@ fn cases() -> Vec<(&'static str, &'static str, String)> {
     let small = r#"<sphere color="white" size="1e-9"><point x="0" y="1e9" z="1"/></sphere>"#;
     let far = r#"<camera pxwidth="40" pxheight="30" width="1"><origin x="0" y="-9" z="1e12"/><target x="0" y="-8" z="1e12"/></camera>"#;
     let again = r#"<sphere color="white" size="1"><point x="0" y="1e-16" z="1"/></sphere>"#;
+    let tilted = r#"<disc color="red" size="1"><point x="4" y="0" z="3"/><normal x="1" y="1" z="1"/></disc>"#;
     let ring = r#"<torus color="red" size="2" tube="0.5"><point x="4" y="0" z="1"/><axis x="0" y="0" z="1"/></torus>"#;
     vec![
         ("there is no light, and nothing glows: all shapes are black", "<world>", {
@@ -55,6 +56,11 @@ fn cases() -> Vec<(&'static str, &'static str, String)> {
         ),
         ("the camera is 1.0e12 from the origin", far, scene(far, LAMP, &ball)),
         ("shape 3, a sphere, is where shape 2 is", again, scene(CAMERA, LAMP, &with(again))),
+        (
+            "shape 4, a disc, is where shape 3 is",
+            r#"<disc color="white""#,
+            scene(CAMERA, LAMP, &with(&[tilted, &tilted.replace("red", "white")].join("\n"))),
+        ),
         (
             "shape 4, a torus, is where shape 3 is",
             r#"<torus color="white""#,

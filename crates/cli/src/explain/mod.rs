@@ -79,9 +79,9 @@ fn print(text: &str) -> Result<(), Failure> {
         .map_err(|e| Failure::work(format_args!("cannot write to standard output: {e}")))
 }
 
-/// The longer side of the picture whose rays are counted, in pixels.
+/// The longer side of the picture whose rays are counted, and its pixels that one sample settles.
 const SMALL: u32 = 96;
-/// The error of the one whose pixels are counted that one sample settles.
+/// Its error.
 const ROUGH: f64 = 0.01;
 
 /// Tells what is done for the scene, and what is left out; and what is probably not meant.
@@ -112,13 +112,11 @@ fn explain_plan(
         PixelCount::new(side.max(1) as u32).map_err(Failure::work)
     };
     (small.camera.px_width, small.camera.px_height) = (shrunk(width)?, shrunk(height)?);
-    let one = RenderSettings { sampling: None, ..settings };
-    let rendered = render(&small, &engine, &one).map_err(Failure::work)?;
     // Rough, so that it does not take long.
     let rough = Sampling { error: Some(args.error.max(ROUGH)), ..sampling };
     let rough = RenderSettings { sampling: Some(rough), quality: true, ..settings };
-    let quality = render(&small, &engine, &rough).map_err(Failure::work)?.quality;
-    let pixels = quality.as_ref().map_or(&[][..], Quality::pixels);
+    let rendered = render(&small, &engine, &rough).map_err(Failure::work)?;
+    let pixels = rendered.quality.as_ref().map_or(&[][..], Quality::pixels);
     let settled = pixels.iter().filter(|pixel| pixel.samples == 1).count();
     let facts = Facts::of(scene);
     let planned = plan::Planned {
@@ -133,7 +131,6 @@ fn explain_plan(
         strategy: sampling.strategy,
         settled: settled as f64 / pixels.len().max(1) as f64,
         counts: rendered.counts,
-        pixels: rendered.film.window().pixels(),
     };
     print(&if args.json { plan::json(&planned) } else { plan::text(&planned) })
 }

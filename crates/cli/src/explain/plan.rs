@@ -22,15 +22,14 @@ pub(super) struct Planned<'a> {
     pub(super) strategy: Strategy,
     /// The part of a small picture's pixels that one sample settles.
     pub(super) settled: f64,
-    /// The rays of such a picture, and how many pixels that has.
+    /// The rays of such a picture.
     pub(super) counts: RayCounts,
-    pub(super) pixels: u64,
 }
 
-/// The kinds of rays, and how many of each a pixel takes.
+/// The kinds of rays, and how many of each a sample takes, which has one primary ray.
 fn rays(planned: &Planned<'_>) -> [(&'static str, f64); 4] {
-    let of = |count: u64| count as f64 / planned.pixels as f64;
     let counts = &planned.counts;
+    let of = |count: u64| count as f64 / counts.primary.max(1) as f64;
     [
         ("primary", of(counts.primary)),
         ("reflected", of(counts.reflected)),

@@ -64,10 +64,10 @@ impl Ways {
         Self { balls, directions: rays.iter().map(|ray| ray.direction).collect() }
     }
 
-    /// Their image in a flat mirror.
-    pub(super) fn image(&self, origin: &Point, normal: &Vector) -> Self {
+    /// Their image in a flat mirror, of which it is not known better where it is.
+    pub(super) fn image(&self, (origin, normal): &(Point, Vector), slack: f64) -> Self {
         let image = |v: &Vector| v - normal * (2.0 * normal.dot(v));
-        let ball = |(centre, radius): &Ball| (origin + image(&(centre - origin)), *radius);
+        let ball = |(centre, radius): &Ball| (origin + image(&(centre - origin)), radius + slack);
         Self {
             balls: self.balls.iter().map(ball).collect(),
             directions: self.directions.iter().map(image).collect(),
@@ -81,8 +81,11 @@ impl Ways {
     /// along two directions, or along one and from one ball to another; a half-space is taken only if
     /// each direction is then found to lead inward.
     pub(super) fn half_spaces(&self) -> Vec<HalfSpace> {
-        let directions: Vec<Vector> = self.directions.iter().filter_map(|v| unit(*v)).collect();
-        let Some((first, _)) = self.balls.first() else { return Vec::new() };
+        // Of one that is no direction, as it is too large to be a number, nothing is known.
+        let directions: Option<Vec<Vector>> = self.directions.iter().map(|v| unit(*v)).collect();
+        let (Some(directions), Some((first, _))) = (directions, self.balls.first()) else {
+            return Vec::new();
+        };
         if directions.is_empty() || directions.len() > MOST {
             return Vec::new();
         }

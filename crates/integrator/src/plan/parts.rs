@@ -101,9 +101,8 @@ fn placed(groups: u64) -> String {
 
 /// What is not made ready, if that is anything.
 fn unreached(scene: &Scene, plan: &Plan) -> Option<Part> {
-    let marked = |marks: &[bool]| marks.iter().filter(|mark| **mark).count() as u64;
-    let (shapes, groups) = (marked(&plan.absent.shapes), marked(&plan.absent.groups));
-    let of = |number: u64, all: usize, what: &str| match number {
+    let (shapes, groups) = (plan.absent.shapes().count(), plan.absent.groups().count());
+    let of = |number: usize, all: usize, what: &str| match number {
         0 => None,
         _ => Some(format!("{number} of {}", count(all as u64, what))),
     };
@@ -131,7 +130,7 @@ fn acceleration(facts: &Facts, is_direct: bool) -> Part {
 
 fn lights(scene: &Scene, plan: &Plan) -> Part {
     let all = scene.lights.len() as u64;
-    let asked = all - plan.dropped.len() as u64;
+    let asked = all.saturating_sub(plan.dropped.len() as u64);
     let mut why = match (asked, all) {
         (_, 0) => "there is none: only what glows is seen".to_owned(),
         (asked, all) => format!("{asked} of {} asked", count(all, "light")),
@@ -157,7 +156,7 @@ fn lights(scene: &Scene, plan: &Plan) -> Part {
 
 fn shadows(facts: &Facts, plan: &Plan, is_direct: bool) -> Part {
     let culling = plan.kernel.culling;
-    let lights = facts.all_lights() - plan.dropped.len() as u64;
+    let lights = facts.all_lights().saturating_sub(plan.dropped.len() as u64);
     if lights == 0 {
         return Part::new("shadows", false, "no light is asked");
     }
@@ -246,10 +245,16 @@ fn precision(facts: &Facts, is_direct: bool) -> Part {
     let half = facts.around.map_or(0.0, |around| 0.5 * around.sides().amax());
     let boxes = if is_direct {
         "there are no boxes to be kept in single precision".to_owned()
+    } else if !(1e-120..=1e120).contains(&half) {
+        "the scene is too large or too small for boxes in single precision: all are one".to_owned()
     } else {
+        let inside = match facts.groups {
+            0 => "",
+            _ => ", in groups by as large a part of the group",
+        };
         format!(
-            "boxes in single precision are wider than shapes by up to {:.1e}: enough to leave out \
-             only what is surely not met",
+            "boxes in single precision are wider than shapes by up to {:.1e}{inside}: enough to leave \
+             out only what is surely not met",
             BOX_SLACK * half
         )
     };

@@ -70,11 +70,13 @@ impl<'a> Sight<'a> {
         };
         let first = in_sight(std::slice::from_ref(&eye));
         let Some(mirror) = first.first() else { return Some(vec![eye]) };
-        let (origin, normal) = (*mirror)?;
-        let ways = vec![eye.image(&origin, &normal), eye];
-        let are_one = |other: &Option<Flat>| {
-            other.is_some_and(|other| is_same_plane(&(origin, normal), &other))
-        };
+        let mirror = (*mirror)?;
+        let eyes = eye.balls.iter().map(|(centre, radius)| centre.coords.amax() + radius);
+        let size = mirror.0.coords.amax() + eyes.fold(0.0, f64::max);
+        // Far more than rounding, and than mirrors in one plane are apart.
+        let ways = vec![eye.image(&mirror, 1e-10 * size), eye];
+        let are_one =
+            |other: &Option<Flat>| other.is_some_and(|other| is_same_plane(&mirror, &other, size));
         in_sight(&ways).iter().all(are_one).then_some(ways)
     }
 
@@ -102,24 +104,19 @@ impl<'a> Sight<'a> {
         if spaces.iter().any(Vec::is_empty) {
             return Absent::NONE;
         }
+        let useful_for_shapes = useful(&self.scene.shapes, &spaces, figure::bounds);
+        let shapes = useful_for_shapes.map_or_else(Vec::new, |useful| {
+            let shapes = self.scene.shapes.par_iter().with_min_len(MANY);
+            shapes.map(|shape| !is_within(figure::bounds(shape), &useful)).collect()
+        });
         let mut known = BTreeMap::new();
-        Absent {
-            shapes: match useful(&self.scene.shapes, &spaces, figure::bounds) {
-                None => Vec::new(),
-                Some(useful) => {
-                    let shapes = self.scene.shapes.par_iter().with_min_len(MANY);
-                    shapes.map(|shape| !is_within(figure::bounds(shape), &useful)).collect()
-                }
-            },
-            groups: {
-                let mut around = |placed: &Placed| around_placed(placed, &mut known);
-                let useful = useful(&self.scene.groups, &spaces, &mut around);
-                let placed = self.scene.groups.iter();
-                useful.map_or_else(Vec::new, |useful| {
-                    placed.map(|placed| !is_within(around(placed), &useful)).collect()
-                })
-            },
-        }
+        let mut around = |placed: &Placed| around_placed(placed, &mut known);
+        let useful_for_groups = useful(&self.scene.groups, &spaces, &mut around);
+        let groups = useful_for_groups.map_or_else(Vec::new, |useful| {
+            let placed = self.scene.groups.iter();
+            placed.map(|placed| !is_within(around(placed), &useful)).collect()
+        });
+        Absent::new(shapes, groups)
     }
 
     /// Half-spaces that hold all rays, shadow rays too.
@@ -193,9 +190,13 @@ fn flat_mirror(shape: &Shape) -> Option<Flat> {
     Some((origin, unit(normal)?))
 }
 
-fn is_same_plane(a: &Flat, b: &Flat) -> bool {
-    let reach = a.0.coords.amax().max(b.0.coords.amax());
-    a.1.cross(&b.1).amax() <= 1e-13 && (a.0 - b.0).dot(&a.1).abs() <= 1e-13 * reach
+/// Whether two planes are one, but for rounding of coordinates of that size: those of points that say
+/// where a plane is, from far away, would say less.
+fn is_same_plane(a: &Flat, b: &Flat, size: f64) -> bool {
+    let way = b.0 - a.0;
+    way.amax() <= 50.0 * size
+        && a.1.cross(&b.1).amax() <= 1e-13
+        && way.dot(&a.1).abs() <= 1e-13 * size
 }
 
 /// Whether rays go on from a shape.

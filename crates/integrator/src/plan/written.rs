@@ -49,6 +49,8 @@ pub(super) enum Unreadable {
     Lanes(#[from] NoSuchLanes),
     #[error("{0} are counted from 1")]
     Number(&'static str),
+    #[error("there are no {0} {1}")]
+    TooLarge(usize, &'static str),
     #[error("light {0} is behind a plane that is not named")]
     NoPlane(usize),
 }
@@ -69,8 +71,8 @@ impl From<Plan> for Written {
             shortcuts: plan.kernel.culling,
             dropped_lights: plan.dropped.iter().map(light).collect(),
             absent: WrittenAbsent {
-                shapes: numbers(&plan.absent.shapes),
-                groups: numbers(&plan.absent.groups),
+                shapes: plan.absent.shapes().map(|number| number + 1).collect(),
+                groups: plan.absent.groups().map(|number| number + 1).collect(),
             },
             most: plan.most(),
         }
@@ -97,25 +99,29 @@ impl TryFrom<Written> for Plan {
         Ok(Self {
             kernel: KernelSettings { lanes, culling: written.shortcuts },
             dropped: written.dropped_lights.iter().map(light).collect::<Result<_, _>>()?,
-            absent: Absent {
-                shapes: marks(&written.absent.shapes).ok_or(Unreadable::Number("shapes"))?,
-                groups: marks(&written.absent.groups).ok_or(Unreadable::Number("groups"))?,
-            },
+            absent: Absent::new(
+                marks(&written.absent.shapes, "shapes")?,
+                marks(&written.absent.groups, "groups")?,
+            ),
         })
     }
 }
 
-fn numbers(marks: &[bool]) -> Vec<usize> {
-    (1..).zip(marks).filter(|(_, mark)| **mark).map(|(number, _)| number).collect()
-}
+/// More shapes, and more places of groups, there are in no scene.
+const MOST: usize = 1 << 28;
 
-/// None where a number is 0.
-fn marks(numbers: &[usize]) -> Option<Vec<bool>> {
-    let mut marks = vec![false; numbers.iter().copied().max().unwrap_or(0)];
-    for number in numbers {
-        *marks.get_mut(number.checked_sub(1)?)? = true;
+/// Marks for numbers from 1.
+fn marks(numbers: &[usize], what: &'static str) -> Result<Vec<bool>, Unreadable> {
+    let most = numbers.iter().copied().max().unwrap_or(0);
+    if most > MOST {
+        return Err(Unreadable::TooLarge(most, what));
     }
-    Some(marks)
+    let mut marks = vec![false; most];
+    for number in numbers {
+        let from_0 = number.checked_sub(1).ok_or(Unreadable::Number(what))?;
+        marks[from_0] = true;
+    }
+    Ok(marks)
 }
 
 /// The two corners of a box.
@@ -144,7 +150,7 @@ mod tests {
             let plan = Plan {
                 kernel: KernelSettings { lanes, culling },
                 dropped: dropped.map(|(light, why, most)| Dropped { light, why, most }).to_vec(),
-                absent: Absent { shapes: vec![false, true, true], groups: vec![true] },
+                absent: Absent::new(vec![false, true, true, false], vec![true]),
             };
             let text = serde_json::to_string(&plan).expect("it can be written");
             let read: Plan = serde_json::from_str(&text).expect("it can be read");
@@ -166,6 +172,11 @@ mod tests {
         for (from, to, why) in [
             (lanes.as_str(), "\"many\"", "no lanes `many`"),
             ("\"shapes\":[]", "\"shapes\":[3,0]", "shapes are counted from 1"),
+            (
+                "\"groups\":[]",
+                "\"groups\":[18446744073709551615]",
+                "there are no 18446744073709551615 groups",
+            ),
             (
                 "\"dropped_lights\":[]",
                 "\"dropped_lights\":[{\"light\":1,\"why\":\"behind\",\"plane\":null,\"most\":0}]",

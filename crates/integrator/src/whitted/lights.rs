@@ -190,6 +190,10 @@ impl Source {
         let (mut strength, mut mark) = (strength, self.marks[0]);
         if let Some(beam) = &self.beam {
             let share = beam.share(&direction());
+            // Nothing of something infinite is nothing.
+            if share == 0.0 {
+                return None;
+            }
             strength *= share;
             if share != 1.0 {
                 mark = self.marks[1];

@@ -5,7 +5,6 @@ use super::balls::{Given, Spheres};
 use super::looks::{Look, Looks};
 use super::planes::Planes;
 use super::space::{Entry, Holds, Kept, Kind, Other, Own, Size, Space, Stand, norms};
-use crate::KernelSettings;
 use crate::hierarchy::Hierarchy;
 use crate::lean::not_lean;
 use crate::primitive::Primitive;
@@ -13,6 +12,7 @@ use crate::shapes::mesh::Facets;
 use crate::shapes::plane::HalfSpace;
 use crate::shapes::primitive;
 use crate::shapes::sphere::{Ball, LEAST_RADIUS};
+use crate::{KernelSettings, figure};
 use lancer_math::{Bounds, Placement};
 use lancer_scene::{Geometry, Group, Mesh, Placed, Scene, Shape};
 use std::collections::{BTreeMap, btree_map};
@@ -54,15 +54,37 @@ fn number(groups: &[Placed], shape_count: &mut u32, firsts: &mut BTreeMap<*const
     }
 }
 
+/// How a group stands. Negative zeros become zeros, as they do in every product.
+fn described(placed: &Placed) -> Placement {
+    placed.placement.then(&Placement::IDENTITY)
+}
+
+/// The size that the space of a group would have.
+fn size(group: &Arc<Group>, known: &mut BTreeMap<*const Group, Size>) -> Size {
+    if let Some(size) = known.get(&Arc::as_ptr(group)) {
+        return *size;
+    }
+    let bounds = group.shapes().iter().filter_map(figure::bounds).filter(is_finite);
+    let own = bounds.fold(Size::NONE, |all, bounds| all.and(Size::of(&bounds)));
+    let all = group
+        .groups()
+        .iter()
+        .filter(|placed| placed.group.shape_count() > 0)
+        .fold(own, |all, placed| all.and(size(&placed.group, known).placed(&described(placed))));
+    known.insert(Arc::as_ptr(group), all);
+    all
+}
+
 #[derive(Default)]
 struct Builder {
     settings: KernelSettings,
     spaces: Vec<Space>,
     looks: Looks,
-    /// The numbers of groups' first shapes, the spaces of groups, and the meshes, by address: only looked up, never
-    /// walked, so that no address decides an order.
+    /// The numbers of groups' first shapes, the spaces of groups, the sizes of those that are absent, and the meshes,
+    /// by address: only looked up, never walked, so that no address decides an order.
     firsts: BTreeMap<*const Group, u32>,
     known: BTreeMap<*const Group, u32>,
+    sizes: BTreeMap<*const Group, Size>,
     meshes: BTreeMap<*const Mesh, Arc<Facets>>,
 }
 
@@ -79,6 +101,9 @@ impl Builder {
         for (i, shape) in (0..).zip(shapes) {
             if !absent.has_shape(i as usize) {
                 self.shape(i, shape, &mut parts);
+            } else if let Some(bounds) = figure::bounds(shape).filter(is_finite) {
+                // What rounding comes to in the scene depends on it all the same.
+                parts.size = parts.size.and(Size::of(&bounds));
             }
         }
         let mut item_count = shapes.len() as u32;
@@ -87,6 +112,9 @@ impl Builder {
             if count > 0 && !absent.has_group(i) {
                 let space = self.group(&placed.group);
                 parts.stand(placed, space, &self.spaces[space as usize], item_count);
+            } else if count > 0 {
+                let size = size(&placed.group, &mut self.sizes);
+                parts.size = parts.size.and(size.placed(&described(placed)));
             }
             item_count = item_count.saturating_add(u32::try_from(count).unwrap_or(u32::MAX));
         }
@@ -195,8 +223,7 @@ impl Parts {
     }
 
     fn stand(&mut self, placed: &Placed, number: u32, space: &Space, first: u32) {
-        // Negative zeros become zeros, as they do in every product.
-        let placement = placed.placement.then(&Placement::IDENTITY);
+        let placement = described(placed);
         let bounds = space.has_end.then(|| placement.bounds(&space.around)).filter(is_finite);
         self.enter(Entry::placed(self.placed.len()), bounds);
         self.size = self.size.and(space.size.placed(&placement));

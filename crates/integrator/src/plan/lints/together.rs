@@ -7,6 +7,9 @@ use lancer_math::{Bounds, Vector, unit};
 use lancer_scene::{Geometry, Scene, Shape};
 use std::sync::Arc;
 
+/// What is said of each.
+const SEEN_BY_CHANCE: &str = "only one of them is seen, as rounding has it";
+
 /// A flat face: its side of the plane n p = at.
 struct Face {
     shape: usize,
@@ -85,20 +88,26 @@ pub(super) fn faces(scene: &Scene, facts: &Facts, lints: &mut Vec<Lint>) {
             lints.push(Lint::new(
                 About::Shape(b.shape),
                 format!("{other}, and {one}, have a face in one place, seen from one side"),
-                "only one of them is seen, as rounding has it",
+                SEEN_BY_CHANCE,
                 "move one of them a little off, or leave one out",
             ));
         }
     }
 }
 
-/// Round shapes and meshes that stand twice in one place.
+/// Shapes that stand twice in one place, but for those of which faces are told of already.
 pub(super) fn shapes(scene: &Scene, facts: &Facts, lints: &mut Vec<Lint>) {
     let shapes = &scene.shapes[..scene.shapes.len().min(MOST_COMPARED)];
     let near = TOGETHER * facts.reach.max(f64::MIN_POSITIVE);
     for (number, shape) in shapes.iter().enumerate() {
         let first = shapes[..number].iter().position(|other| are_one(shape, other, near));
         let Some(first) = first else { continue };
+        if lints
+            .iter()
+            .any(|lint| lint.about == About::Shape(number) && lint.label == SEEN_BY_CHANCE)
+        {
+            continue;
+        }
         let kind = shape.geometry.kind();
         lints.push(Lint::new(
             About::Shape(number),
@@ -107,14 +116,14 @@ pub(super) fn shapes(scene: &Scene, facts: &Facts, lints: &mut Vec<Lint>) {
                 number + 1,
                 first + 1
             ),
-            "only one of them is seen, as rounding has it",
+            SEEN_BY_CHANCE,
             "move one of them, or leave one out",
         ));
     }
 }
 
-/// Whether shapes have the same surface, but for rounding where they are spheres. Those with flat
-/// faces are left to others.
+/// Whether shapes have the same surface, but for rounding where they are spheres. Planes and boxes are
+/// left to their faces.
 fn are_one(a: &Shape, b: &Shape, near: f64) -> bool {
     match (&a.geometry, &b.geometry) {
         (Geometry::Sphere(a), Geometry::Sphere(b)) => {
@@ -123,6 +132,9 @@ fn are_one(a: &Shape, b: &Shape, near: f64) -> bool {
         }
         (Geometry::Cone(a), Geometry::Cone(b)) => a == b,
         (Geometry::Torus(a), Geometry::Torus(b)) => a == b,
+        (Geometry::Disc(a), Geometry::Disc(b)) => a == b,
+        (Geometry::Rectangle(a), Geometry::Rectangle(b)) => a == b,
+        (Geometry::Triangle(a), Geometry::Triangle(b)) => a == b,
         (Geometry::Tetrahedron(a), Geometry::Tetrahedron(b)) => a == b,
         (Geometry::Mesh(a), Geometry::Mesh(b)) => Arc::ptr_eq(a, b),
         _ => false,

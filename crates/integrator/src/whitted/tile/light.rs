@@ -173,7 +173,8 @@ impl<P: Places> Batch<'_, P> {
                 shares[k] = beam.share(&(way.lane(k) / -distance.lane(k)));
             }
             let shares = lanes.load(&shares);
-            strength = strength * shares;
+            // Nothing of something infinite is nothing.
+            strength = shares.eq(zero).select(zero, strength * shares);
             let all = shares.eq(lanes.splat(1.0));
             mark = all.select(mark, lanes.splat(source.marks[1]));
         }
