@@ -81,10 +81,10 @@ fn what_is_behind_the_eye_is_left_out() {
 fn what_throws_a_shadow_into_view_is_there() {
     let behind = Light::lamp([0.0, -8.0, 6.0], 50.0).expect("valid");
     let shapes = vec![ball([0.0, -4.0, 3.5], white()), ball([0.0, -4.0, -3.5], white())];
-    assert_eq!(absent(scene(shapes.clone(), behind.clone())), [2]);
+    assert_eq!(absent(scene(shapes.clone(), behind)), [2]);
     assert!(matters(scene(shapes.clone(), behind), 1));
     let sun = Light::sun([0.0, 1.0, -0.55], 1.0).expect("valid");
-    assert_eq!(absent(scene(shapes.clone(), sun.clone())), [2]);
+    assert_eq!(absent(scene(shapes.clone(), sun)), [2]);
     assert!(matters(scene(shapes, sun), 1));
 }
 
