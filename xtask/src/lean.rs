@@ -5,9 +5,6 @@ use crate::bench::process::{self, Build};
 use crate::bench::{machine, page::Table};
 use crate::{Failure, fail, sections};
 use clap::Args;
-use lancer_tests::paths;
-use std::path::{Path, PathBuf};
-use std::process::Command;
 
 /// How to measure.
 #[derive(Debug, Args)]
@@ -27,23 +24,26 @@ const WAYS: [(&str, &[&str]); 2] = [
     ("an error of 0.0005", &["--error", "0.0005"]),
 ];
 
-/// A picture made by one of the builds.
-struct Work<'a> {
-    program: &'a Path,
-    flags: &'static [&'static str],
-    picture: PathBuf,
-}
-
 pub(crate) fn run(args: &LeanArgs) -> Result<(), Failure> {
-    let (whole, lean) = (process::program(Build::Whole)?, process::program(Build::Lean)?);
-    let folder = tempfile::tempdir().map_err(fail)?;
+    let programs = [process::program(Build::Whole)?, process::program(Build::Lean)?];
+    let [whole, lean] = [(); 2].map(|()| tempfile::tempdir().map_err(fail));
+    let folders = [whole?, lean?];
+    let works = [0, 1].map(|k| (programs[k].as_path(), folders[k].path()));
+    // Flags of the compiler that something overrides would make two builds of the same.
+    let (program, folder) = works[1];
+    let refused = process::render_readme(program, folder, &["--engine", "classic"]).output();
+    if refused.map_err(fail)?.status.success() {
+        return Err(fail("the lean build has the engine classic: RUSTFLAGS did not reach it"));
+    }
     let mut table = Table::new(&["README's scene", "lean, ms", "whole, ms", "whole / lean"]);
     for (name, flags) in WAYS {
-        let work = |program, file| Work { program, flags, picture: folder.path().join(file) };
-        let works = [work(&whole, "whole.ppm"), work(&lean, "lean.ppm")];
-        let stats = folder.path().join("stats.json");
-        let samples = in_turn(usize::from(args.runs), &works, |work| seconds(work, &stats))?;
-        let [whole, lean] = works.map(|work| std::fs::read(work.picture));
+        let samples = in_turn(usize::from(args.runs), &works, |(program, folder)| {
+            let flags = [&["--threads", "1"], flags].concat();
+            let command = process::render_readme(program, folder, &flags);
+            let (_, [render, _, _]) = process::run(command, folder)?;
+            Ok(render)
+        })?;
+        let [whole, lean] = works.map(|(_, folder)| std::fs::read(folder.join("out.ppm")));
         if whole.map_err(fail)? != lean.map_err(fail)? {
             return Err(fail("the pictures of both builds are not the same"));
         }
@@ -60,24 +60,5 @@ pub(crate) fn run(args: &LeanArgs) -> Result<(), Failure> {
         args.runs,
         machine::description()
     );
-    println!("{text}");
-    if args.write { sections::write("plan.md", "unused", &text) } else { Ok(()) }
-}
-
-/// How long rendering takes on one thread, as the program says it.
-fn seconds(work: &Work<'_>, stats: &Path) -> Result<f64, Failure> {
-    let mut command = Command::new(work.program);
-    command
-        .arg("render")
-        .arg(paths::scenes().join("readme.xml"))
-        .arg("-o")
-        .arg(&work.picture)
-        .args(["--quiet", "--threads", "1"])
-        .args(work.flags)
-        .arg("--stats")
-        .arg(stats);
-    if !command.status().map_err(fail)?.success() {
-        return Err(fail("the program fails"));
-    }
-    process::stage(stats, "render")
+    sections::show(&text, ("plan.md", "unused"), args.write)
 }

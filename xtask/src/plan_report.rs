@@ -1,6 +1,6 @@
 //! `cargo xtask plan-report`: what each rule of a plan saves.
 
-use crate::bench::clock::{in_turn, number, seconds};
+use crate::bench::clock::{Samples, in_turn, number, seconds};
 use crate::bench::{machine, page::Table};
 use crate::{Failure, fail, sections};
 use clap::Args;
@@ -69,8 +69,7 @@ pub(crate) fn run(args: &PlanReportArgs) -> Result<(), Failure> {
         args.runs,
         machine::description()
     );
-    println!("{text}");
-    if args.write { sections::write("plan.md", "savings", &text) } else { Ok(()) }
+    sections::show(&text, ("plan.md", "savings"), args.write)
 }
 
 /// What is left out.
@@ -120,10 +119,9 @@ fn column(subject: &Subject, ways: &[(&str, Way)], runs: usize) -> Result<Vec<St
     let most = Way::Planned.plan(&subject.scene).most();
     let is_whitted = subject.engine.name() == WHITTED.name();
     let all_rays = Whitted::with_cutoff(NOTHING).map_err(fail)?;
-    let deep = ways.iter().position(|(_, way)| way.is_deep()).unwrap_or(0);
-    let ways: Vec<_> = ways.iter().filter(|(_, way)| is_whitted || !way.is_deep()).collect();
-    let samples = in_turn(runs, &ways, |(_, way)| {
-        let engine: &dyn Engine = if way.is_deep() { &all_rays } else { subject.engine };
+    let samples = in_turn(runs, ways, |(_, way)| {
+        let is_deep = is_whitted && way.is_deep();
+        let engine: &dyn Engine = if is_deep { &all_rays } else { subject.engine };
         let mut pixels = Vec::with_capacity(frame.pixels() as usize);
         let (took, ()) = seconds(|| {
             let tracer = engine.prepare(&subject.scene, &way.plan(&subject.scene));
@@ -140,19 +138,20 @@ fn column(subject: &Subject, ways: &[(&str, Way)], runs: usize) -> Result<Vec<St
         let worst = off.map(|(a, b)| f64::from((a - b).abs())).fold(0.0, f64::max);
         // Rays that are cut off see nothing brighter than what is in the picture.
         let brightest = first.iter().flatten().fold(1.0, |most: f32, v| most.max(*v));
-        let cut = if way.is_deep() { WHITTED.cutoff() * f64::from(brightest) } else { 0.0 };
+        let cut = if is_deep { WHITTED.cutoff() * f64::from(brightest) } else { 0.0 };
         if worst > most + cut {
             return Err(fail(format_args!("a pixel is {worst:e} off, and {most:e} are stated")));
         }
         Ok(took)
     })?;
     let planned = &samples[0];
-    let ratios = samples[1..].iter().map(|without| number(without.times(planned)));
-    let mut cells: Vec<_> = std::iter::once(planned.milliseconds()).chain(ratios).collect();
-    if !is_whitted {
-        cells.insert(deep, "-".to_owned());
-    }
-    Ok(cells)
+    let ratio = |(without, (_, way)): (&Samples, &(&str, Way))| match way.is_deep() && !is_whitted {
+        // It has no cutoff.
+        true => "-".to_owned(),
+        false => number(without.times(planned)),
+    };
+    let ratios = samples.iter().zip(ways).skip(1).map(ratio);
+    Ok(std::iter::once(planned.milliseconds()).chain(ratios).collect())
 }
 
 fn subjects() -> Result<Vec<Subject>, Failure> {

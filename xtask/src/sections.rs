@@ -18,6 +18,12 @@ pub(crate) fn write(page: &str, name: &str, text: &str) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Prints a section, and writes it into a page in docs if that is asked for.
+pub(crate) fn show(text: &str, (page, name): (&str, &str), is_kept: bool) -> Result<(), Failure> {
+    println!("{text}");
+    if is_kept { write(page, name, text) } else { Ok(()) }
+}
+
 fn with(page: &str, name: &str, text: &str) -> String {
     const END: &str = "<!-- end -->";
     let begin = format!("<!-- generated: {name} -->\n");

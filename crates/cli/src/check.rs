@@ -3,7 +3,7 @@
 use crate::args::CheckArgs;
 use crate::report::{self, Tally, count};
 use crate::{Failure, files, lints, print_line};
-use lancer_integrator::RenderSettings;
+use lancer_integrator::{Facts, RenderSettings};
 use lancer_xml::Options;
 
 pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
@@ -33,7 +33,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
             let mut found = engine.warnings(scene);
             if tally.errors == 0 {
                 let plan = RenderSettings::default().plan(scene, engine);
-                found.extend(lints::of_scene(scene, engine, &plan));
+                found.extend(lints::of_scene(scene, &Facts::of(scene), engine, &plan));
             }
             let found = lints::tell(&found, &name, &parsed.source, false).warnings;
             match &args.deny {

@@ -5,8 +5,8 @@ use crate::render::{Outputs, WHITTED};
 use crate::{Failure, interrupt, lints, report};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use lancer_integrator::{
-    Engine, Forecast, KernelSettings, Progress, RenderError, RenderSettings, Rendered, Sampling,
-    Why, Width, render,
+    Engine, Facts, Forecast, KernelSettings, Progress, RenderError, RenderSettings, Rendered,
+    Sampling, Why, Width, render,
 };
 use lancer_scene::Scene;
 use lancer_xml::Source;
@@ -43,13 +43,12 @@ impl Drawing<'_> {
         }
     }
 
-    /// Tells what is probably not meant; how much that is, with what the engine warns about, which
-    /// has been told.
+    /// Tells what is probably not meant; how much that is.
     pub(crate) fn lints(&self, name: &str, source: &Source) -> usize {
         let plan = self.settings().plan(self.scene, self.engine);
-        let found = lints::of_scene(self.scene, self.engine, &plan);
+        let facts = Facts::of(self.scene);
+        let found = lints::of_scene(self.scene, &facts, self.engine, &plan);
         lints::tell(&found, name, source, self.args.quiet).warnings
-            + self.engine.warnings(self.scene).len()
     }
 
     /// Renders it.

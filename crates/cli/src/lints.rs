@@ -8,9 +8,14 @@ use lancer_xml::{Diagnostic, Parsed, Places, Severity, Source};
 use std::ops::Range;
 
 /// What is probably not meant in a scene, for which that engine is made ready.
-pub(crate) fn of_scene(scene: &Scene, engine: &dyn Engine, plan: &Plan) -> Vec<Lint> {
+pub(crate) fn of_scene(
+    scene: &Scene,
+    facts: &Facts,
+    engine: &dyn Engine,
+    plan: &Plan,
+) -> Vec<Lint> {
     let tracer = engine.prepare(scene, plan);
-    lancer_integrator::lints(scene, &Facts::of(scene), plan, &*tracer)
+    lancer_integrator::lints(scene, facts, plan, &*tracer)
 }
 
 /// Tells it, unless only errors are to be told.

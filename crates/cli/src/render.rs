@@ -27,7 +27,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let (name, bytes) = read(&args.scene)?;
     seconds.read = stopwatch.lap();
 
-    let (scene, source) = scene(&name, &bytes, args, engine)?;
+    let (scene, source, warnings) = scene(&name, &bytes, args, engine)?;
     let frame = Size::new(scene.camera.px_width.get(), scene.camera.px_height.get());
     let kept = args.crop.unwrap_or_else(|| frame.window());
     if let Some((_, format)) = &outputs.picture
@@ -49,7 +49,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
 
     start_threads(args)?;
     let drawing = Drawing { args, scene: &scene, engine, sampling, lanes, outputs: &outputs };
-    if args.deny.is_some() && drawing.lints(&name, &source) > 0 {
+    if args.deny.is_some() && drawing.lints(&name, &source) + warnings > 0 {
         return Err(Failure::Work(format!("{name} is refused by --deny lints")));
     }
     let rendered = drawing.draw()?;
@@ -205,13 +205,13 @@ impl Outputs {
     }
 }
 
-/// The scene that the file describes, and what the engine says of it.
+/// The scene that the file describes, and how much the engine warns about, which is told.
 fn scene(
     name: &str,
     bytes: &[u8],
     args: &RenderArgs,
     engine: &dyn Engine,
-) -> Result<(Scene, Source), Failure> {
+) -> Result<(Scene, Source, usize), Failure> {
     let wanted = Wanted {
         path: &args.scene,
         size: args.size,
@@ -219,8 +219,11 @@ fn scene(
         quiet: args.quiet,
     };
     let (scene, source) = wanted.scene(name, bytes)?;
-    lints::tell(&engine.warnings(&scene), name, &source, args.quiet);
-    Ok((scene, source))
+    // Where nobody listens the scene is not looked through.
+    let is_heard = !args.quiet || args.deny.is_some();
+    let warnings = if is_heard { engine.warnings(&scene) } else { Vec::new() };
+    let warnings = lints::tell(&warnings, name, &source, args.quiet).warnings;
+    Ok((scene, source, warnings))
 }
 
 /// What is asked about samples, of the engine that has them; others take nothing that is about

@@ -103,24 +103,10 @@ fn one(
     lanes: &str,
     stages: &mut Stages,
 ) -> Result<f64, Failure> {
-    let stats = folder.join("stats.json");
-    let mut command = Command::new(program);
-    command
-        .arg("render")
-        .arg(paths::scenes().join("readme.xml"))
-        .arg("-o")
-        .arg(folder.join("out.ppm"))
-        .args(["--engine", engine, "--quiet"])
-        .args(centres(engine))
-        .arg("--stats")
-        .arg(&stats)
-        .env("LANCER_LANES", lanes);
-    let (seconds, status) = seconds(|| command.status());
-    if !status.map_err(fail)?.success() {
-        return Err(fail("the program fails"));
-    }
-    let [render, encode, write] =
-        [stage(&stats, "render")?, stage(&stats, "encode")?, stage(&stats, "write")?];
+    let flags = [&["--engine", engine][..], centres(engine)].concat();
+    let mut command = render_readme(program, folder, &flags);
+    command.env("LANCER_LANES", lanes);
+    let (seconds, [render, encode, write]) = run(command, folder)?;
     stages.render.push(render);
     stages.encode.push(encode);
     stages.write.push(write);
@@ -128,10 +114,33 @@ fn one(
     Ok(seconds)
 }
 
-/// The seconds that a stage took, as statistics tell them.
-pub(crate) fn stage(stats: &Path, name: &str) -> Result<f64, Failure> {
-    let stats = std::fs::read(stats).map_err(fail)?;
+/// Renders the README's scene to a picture and statistics in a folder.
+pub(crate) fn render_readme(program: &Path, folder: &Path, flags: &[&str]) -> Command {
+    let mut command = Command::new(program);
+    command
+        .arg("render")
+        .arg(paths::scenes().join("readme.xml"))
+        .arg("-o")
+        .arg(folder.join("out.ppm"))
+        .arg("--quiet")
+        .args(flags)
+        .arg("--stats")
+        .arg(folder.join("stats.json"));
+    command
+}
+
+/// The seconds that this takes from start to end, and those for rendering, encoding and writing, as
+/// the program says them.
+pub(crate) fn run(mut command: Command, folder: &Path) -> Result<(f64, [f64; 3]), Failure> {
+    let (whole, status) = seconds(|| command.status());
+    if !status.map_err(fail)?.success() {
+        return Err(fail("the program fails"));
+    }
+    let stats = std::fs::read(folder.join("stats.json")).map_err(fail)?;
     let stats: serde_json::Value = serde_json::from_slice(&stats).map_err(fail)?;
-    let seconds = stats["seconds"][name].as_f64();
-    seconds.ok_or_else(|| fail(format_args!("the statistics do not tell the time of {name}")))
+    let stage = |name: &str| {
+        let seconds = stats["seconds"][name].as_f64();
+        seconds.ok_or_else(|| fail(format_args!("the statistics do not tell the time of {name}")))
+    };
+    Ok((whole, [stage("render")?, stage("encode")?, stage("write")?]))
 }

@@ -40,7 +40,9 @@ pub(crate) fn run(args: &ExplainArgs) -> Result<(), Failure> {
         return explain_plan(args, (&name, &source), &scene, kernel);
     };
     let engine = args.cutoff.unwrap_or_default();
-    lints::tell(&engine.warnings(&scene), &name, &source, args.quiet);
+    if !args.quiet {
+        lints::tell(&engine.warnings(&scene), &name, &source, false);
+    }
     let frame = Size::new(scene.camera.px_width.get(), scene.camera.px_height.get());
     let (x, y) = pixel;
     if x >= frame.width || y >= frame.height {
@@ -101,8 +103,10 @@ fn explain_plan(
         ..RenderSettings::default()
     };
     let plan = settings.plan(scene, &engine);
+    let facts = Facts::of(scene);
     if !args.quiet {
-        let found = [engine.warnings(scene), lints::of_scene(scene, &engine, &plan)].concat();
+        let found = lints::of_scene(scene, &facts, &engine, &plan);
+        let found = [engine.warnings(scene), found].concat();
         lints::tell(&found, name, source, false);
     }
     let mut small = scene.clone();
@@ -118,7 +122,6 @@ fn explain_plan(
     let rendered = render(&small, &engine, &rough).map_err(Failure::work)?;
     let pixels = rendered.quality.as_ref().map_or(&[][..], Quality::pixels);
     let settled = pixels.iter().filter(|pixel| pixel.samples == 1).count();
-    let facts = Facts::of(scene);
     let planned = plan::Planned {
         name,
         scene,

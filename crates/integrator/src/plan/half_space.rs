@@ -64,7 +64,7 @@ impl Ways {
         Self { balls, directions: rays.iter().map(|ray| ray.direction).collect() }
     }
 
-    /// Their image in a flat mirror, of which it is not known better where it is.
+    /// Their image in a flat mirror that may be half as far as `slack` from where it is said to be.
     pub(super) fn image(&self, (origin, normal): &(Point, Vector), slack: f64) -> Self {
         let image = |v: &Vector| v - normal * (2.0 * normal.dot(v));
         let ball = |(centre, radius): &Ball| (origin + image(&(centre - origin)), radius + slack);

@@ -16,6 +16,7 @@ mod sight;
 mod written;
 
 pub use facts::{Facts, LightCounts};
+pub(crate) use lints::TOGETHER;
 pub use lints::{About, Lint, lints};
 pub use parts::Part;
 

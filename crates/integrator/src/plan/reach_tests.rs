@@ -3,8 +3,13 @@
 use super::*;
 use crate::{RenderSettings, Whitted, render};
 use lancer_math::{Placement, Vector};
-use lancer_scene::{Camera, Colour, Group, Light, SceneBuilder, Shape, Surface};
+use lancer_scene::{Camera, Colour, Group, InvalidField, Light, SceneBuilder, Shape, Surface};
 use std::sync::Arc;
+
+/// As builders take it.
+fn valid<T>(part: T) -> Result<T, InvalidField> {
+    Ok(part)
+}
 
 fn white() -> Surface {
     Surface::new(Colour::WHITE)
@@ -23,11 +28,9 @@ fn scene(shapes: Vec<Shape>, light: Light) -> SceneBuilder {
     let wall = Shape::rectangle([-9.0, 8.0, -9.0], [[18.0, 0.0, 0.0], [0.0, 0.0, 18.0]], white());
     let scene = Scene::builder()
         .camera(Camera::new([0.0; 3], [0.0, 1.0, 0.0], 1.0, [32, 32]))
-        .light(Ok::<_, lancer_scene::InvalidField>(light))
+        .light(valid(light))
         .shape(wall);
-    shapes
-        .into_iter()
-        .fold(scene, |scene, shape| scene.shape(Ok::<_, lancer_scene::InvalidField>(shape)))
+    shapes.into_iter().fold(scene, |scene, shape| scene.shape(valid(shape)))
 }
 
 fn lamp() -> Light {
@@ -214,11 +217,8 @@ fn spots_that_are_aimed_at_what_is_seen_are_asked() {
                 let axis = [at[0] - x + corner, at[1] - y - corner, at[2] - z + corner];
                 let light = Light::spot([x, y, z], axis, [10.0, 20.0], 50.0).expect("valid");
                 let camera = Camera::new([0.0; 3], [0.0, 1.0, 0.0], 1.0, [32, 32]);
-                let scene =
-                    Scene::builder()
-                        .camera(camera)
-                        .shape(Ok::<_, lancer_scene::InvalidField>(ball(at, white())));
-                assert!(!aside(scene.light(Ok::<_, lancer_scene::InvalidField>(light))));
+                let scene = Scene::builder().camera(camera).shape(valid(ball(at, white())));
+                assert!(!aside(scene.light(valid(light))));
             }
         }
     }
@@ -228,7 +228,7 @@ fn spots_that_are_aimed_at_what_is_seen_are_asked() {
 #[test]
 fn what_is_infinitely_bright_is_dark_outside_of_its_beam() {
     let spot = Light::spot([0.0, 7.5, 0.0], [0.0, -1.0, 0.0], [10.0, 20.0], 1e308).expect("valid");
-    assert!(aside(scene(vec![], lamp()).light(Ok::<_, lancer_scene::InvalidField>(spot))));
+    assert!(aside(scene(vec![], lamp()).light(valid(spot))));
 }
 
 /// How far a floor is known, and so what is crossed together with a box on it, depends on how large the
@@ -243,9 +243,9 @@ fn what_is_left_out_counts_for_rounding() {
         let mut scene = Scene::builder();
         let camera = Camera::new([0.0, 0.0, 3.0], [0.0, 1.0, 2.4], 1.0, [32, 32]);
         let light = Light::lamp([0.0, 0.0, 3.0], 50.0).expect("valid");
-        scene = scene.camera(camera).light(Ok::<_, lancer_scene::InvalidField>(light));
+        scene = scene.camera(camera).light(valid(light));
         for shape in [floor.clone(), slab.clone(), shape] {
-            scene = scene.shape(Ok::<_, lancer_scene::InvalidField>(shape));
+            scene = scene.shape(valid(shape));
         }
         scene
     };

@@ -1,5 +1,6 @@
 //! Scenes of which this engine promises less than it does of others (docs/stability.md has the ranges).
 
+use crate::plan::TOGETHER;
 use crate::{About, Lint};
 use lancer_kernel::{LEAST_RADIUS, figure};
 use lancer_scene::{Geometry, Group, Placed, Scene, Shape};
@@ -14,9 +15,6 @@ const FARTHEST: f64 = 1_073_741_824.0;
 /// Coordinates up to this can be squared, and the result multiplied with
 /// another one, in double precision.
 const LARGEST: f64 = 1e75;
-
-/// Surfaces that are so many roundings of coordinates apart are told apart.
-const TOGETHER: f64 = 24.0;
 
 pub(super) fn of(scene: &Scene) -> Vec<Lint> {
     let mut warnings = Vec::new();
@@ -87,7 +85,7 @@ fn of_shapes(shapes: &[Shape], group: Option<&Group>, warnings: &mut Vec<Lint>) 
             );
         } else if let Some(bounds) = figure::bounds(shape)
             && let (size, reach) = (bounds.sides().amax(), bounds.reach())
-            && let least = TOGETHER * f64::EPSILON * reach
+            && let least = TOGETHER * reach
             && size < least
         {
             warn(

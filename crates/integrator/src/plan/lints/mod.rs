@@ -2,6 +2,8 @@
 
 mod together;
 
+pub(crate) use together::TOGETHER;
+
 use super::{Facts, Plan, Reason};
 use crate::Tracer;
 use lancer_kernel::figure;
@@ -56,8 +58,9 @@ pub fn lints(scene: &Scene, facts: &Facts, plan: &Plan, tracer: &dyn Tracer) -> 
     inside(scene, around_eye, &mut lints);
     unseen(scene, facts, tracer, &mut lints);
     enclosed(scene, around_eye, &mut lints);
-    together::faces(scene, facts, &mut lints);
-    together::shapes(scene, facts, &mut lints);
+    let near = TOGETHER * facts.reach.max(f64::MIN_POSITIVE);
+    together::faces(scene, near, &mut lints);
+    together::shapes(scene, near, &mut lints);
     lints.sort_by_key(|lint| lint.about);
     lints
 }

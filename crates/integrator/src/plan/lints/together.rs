@@ -1,7 +1,6 @@
 //! Surfaces in one place, of which one is seen, as rounding has it.
 
 use super::{About, Lint, MOST_COMPARED};
-use crate::Facts;
 use lancer_kernel::figure;
 use lancer_math::{Bounds, Vector, unit};
 use lancer_scene::{Geometry, Scene, Shape};
@@ -19,11 +18,13 @@ struct Face {
     bounds: Option<Bounds>,
 }
 
-/// How near two faces are that cannot be told apart, in roundings of their coordinates.
-const TOGETHER: f64 = 24.0 * f64::EPSILON;
+/// Surfaces nearer to one another than this part of their coordinates are not told apart:
+/// docs/stability.md has why.
+pub(crate) const TOGETHER: f64 = 24.0 * f64::EPSILON;
 
-/// Faces in one place that show the same side: which of them is seen is as rounding has it.
-pub(super) fn faces(scene: &Scene, facts: &Facts, lints: &mut Vec<Lint>) {
+/// Faces in one place, as far as those `near` one another are, that show the same side: which of them is
+/// seen is as rounding has it.
+pub(super) fn faces(scene: &Scene, near: f64, lints: &mut Vec<Lint>) {
     let mut faces = Vec::new();
     for (shape, it) in scene.shapes.iter().enumerate().take(MOST_COMPARED) {
         let bounds = figure::bounds(it);
@@ -68,7 +69,6 @@ pub(super) fn faces(scene: &Scene, facts: &Facts, lints: &mut Vec<Lint>) {
             }
         }
     }
-    let near = TOGETHER * facts.reach.max(f64::MIN_POSITIVE);
     let mut told = Vec::new();
     for (k, a) in faces.iter().enumerate() {
         for b in &faces[k + 1..] {
@@ -95,10 +95,9 @@ pub(super) fn faces(scene: &Scene, facts: &Facts, lints: &mut Vec<Lint>) {
     }
 }
 
-/// Shapes that stand twice in one place, but for those of which faces are told of already.
-pub(super) fn shapes(scene: &Scene, facts: &Facts, lints: &mut Vec<Lint>) {
+/// Shapes that stand twice in one place likewise, but for those of which faces are told of already.
+pub(super) fn shapes(scene: &Scene, near: f64, lints: &mut Vec<Lint>) {
     let shapes = &scene.shapes[..scene.shapes.len().min(MOST_COMPARED)];
-    let near = TOGETHER * facts.reach.max(f64::MIN_POSITIVE);
     for (number, shape) in shapes.iter().enumerate() {
         let first = shapes[..number].iter().position(|other| are_one(shape, other, near));
         let Some(first) = first else { continue };
